@@ -1,0 +1,50 @@
+# Sourced by demo.sh and tests/run.sh: installs missing packages, configures once, builds.
+# A second call finds everything in place and starts in seconds.
+
+oneac_root="$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)"
+# One checkout's objects serve another: ccache sees paths relative to the checkout.
+export CCACHE_BASEDIR="$oneac_root" CCACHE_NOHASHDIR=1
+
+# as_root COMMAND...: runs it as root, through sudo when needed.
+as_root() {
+  if [ "$(id -u)" -eq 0 ]; then
+    "$@"
+  elif command -v sudo >/dev/null; then
+    sudo "$@"
+  else
+    echo "oneac: packages are missing and there is neither root nor sudo: $*" >&2
+    return 1
+  fi
+}
+
+# install_packages USE...: installs the packages of packages.txt with one of these uses.
+install_packages() {
+  local wanted missing
+  wanted=$(awk -v uses=" $* " '$1 !~ /^#/ && NF == 2 && index(uses, " " $1 " ") { print $2 }' \
+    "$oneac_root/apps/packages.txt")
+  missing=""
+  for package in $wanted; do
+    dpkg-query -W -f '${Status}' "$package" 2>/dev/null | grep -q "install ok installed" ||
+      missing="$missing $package"
+  done
+  [ -z "$missing" ] && return 0
+  echo "oneac: installing$missing"
+  as_root apt-get update -qq
+  # shellcheck disable=SC2086  # one word per package is meant
+  as_root env DEBIAN_FRONTEND=noninteractive \
+    apt-get install -y -qq --no-install-recommends $missing >/dev/null
+}
+
+# build_preset PRESET [TARGET...]: configures when there is no build folder yet, then builds.
+build_preset() {
+  local preset=$1
+  shift
+  if [ ! -f "$oneac_root/build/$preset/build.ninja" ]; then
+    (cd "$oneac_root" && cmake --preset "$preset" >"/tmp/oneac-configure.$$" 2>&1) || {
+      cat "/tmp/oneac-configure.$$" >&2
+      return 1
+    }
+    rm -f "/tmp/oneac-configure.$$"
+  fi
+  (cd "$oneac_root" && cmake --build --preset "$preset" ${1:+--target "$@"})
+}

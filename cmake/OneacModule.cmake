@@ -1,0 +1,54 @@
+# Helpers shared by all modules: one place for the language level, warnings, ccache, sanitizers.
+
+find_program(ONEAC_CCACHE ccache)
+if(ONEAC_CCACHE AND NOT CMAKE_CXX_COMPILER_LAUNCHER)
+  set(CMAKE_C_COMPILER_LAUNCHER "${ONEAC_CCACHE}")
+  set(CMAKE_CXX_COMPILER_LAUNCHER "${ONEAC_CCACHE}")
+endif()
+if(ONEAC_CLANG_TIDY)
+  find_program(ONEAC_CLANG_TIDY_PROGRAM NAMES clang-tidy-14 clang-tidy REQUIRED)
+endif()
+
+add_library(oneac_options INTERFACE)
+target_compile_features(oneac_options INTERFACE cxx_std_17)
+# No fused multiply-add contraction: the same bytes on every machine.
+target_compile_options(oneac_options INTERFACE
+  -Wall -Wextra -Wpedantic -Wconversion -Wshadow -ffp-contract=off
+  $<$<BOOL:${ONEAC_WARNINGS_AS_ERRORS}>:-Werror>)
+if(ONEAC_SANITIZE)
+  target_compile_options(oneac_options INTERFACE -fsanitize=${ONEAC_SANITIZE}
+                         -fno-omit-frame-pointer -fno-sanitize-recover=all)
+  target_link_options(oneac_options INTERFACE -fsanitize=${ONEAC_SANITIZE})
+endif()
+
+function(oneac_common target)
+  target_link_libraries(${target} PRIVATE $<BUILD_INTERFACE:oneac_options>)
+  if(ONEAC_CLANG_TIDY)
+    set_target_properties(${target} PROPERTIES CXX_CLANG_TIDY "${ONEAC_CLANG_TIDY_PROGRAM}")
+  endif()
+endfunction()
+
+# oneac_module(NAME SOURCES ... PUBLIC ... PRIVATE ...): library oneac_NAME, alias oneac::NAME.
+function(oneac_module name)
+  cmake_parse_arguments(M "" "" "SOURCES;PUBLIC;PRIVATE" ${ARGN})
+  add_library(oneac_${name} STATIC ${M_SOURCES})
+  add_library(oneac::${name} ALIAS oneac_${name})
+  target_include_directories(oneac_${name} PUBLIC
+    $<BUILD_INTERFACE:${CMAKE_CURRENT_SOURCE_DIR}/include> $<INSTALL_INTERFACE:include>)
+  target_compile_features(oneac_${name} PUBLIC cxx_std_17)
+  target_link_libraries(oneac_${name} PUBLIC ${M_PUBLIC} PRIVATE ${M_PRIVATE})
+  set_target_properties(oneac_${name} PROPERTIES POSITION_INDEPENDENT_CODE ON)
+  oneac_common(oneac_${name})
+endfunction()
+
+# oneac_test(NAME SOURCES ... LINK ...): GoogleTest program NAME, every test known to ctest.
+function(oneac_test name)
+  if(NOT ONEAC_BUILD_TESTS)
+    return()
+  endif()
+  cmake_parse_arguments(T "" "" "SOURCES;LINK" ${ARGN})
+  add_executable(${name} ${T_SOURCES})
+  target_link_libraries(${name} PRIVATE ${T_LINK} oneac::test_support GTest::gtest GTest::gtest_main)
+  oneac_common(${name})
+  gtest_discover_tests(${name} DISCOVERY_TIMEOUT 60 PROPERTIES TIMEOUT 300)
+endfunction()

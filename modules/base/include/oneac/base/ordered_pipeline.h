@@ -1,0 +1,47 @@
+#pragma once
+
+#include <algorithm>
+#include <deque>
+#include <future>
+#include <optional>
+#include <utility>
+
+namespace oneac {
+
+/// Maps items on several threads and hands the results on in the order of the input, so that the
+/// outcome does not depend on the number of threads.
+///
+/// @param next     called on this thread; the next item, or nothing at the end
+/// @param map      called on a worker; a pure function of the item
+/// @param consume  called on this thread with each result in order; returning false stops
+/// @param threads  number of items mapped at once, at least 1; 1 runs everything on this thread
+template <class Next, class Map, class Consume>
+void ordered_pipeline(Next&& next, Map&& map, Consume&& consume, int threads) {
+  if (threads <= 1) {
+    while (auto item = next()) {
+      if (!consume(map(std::move(*item)))) return;
+    }
+    return;
+  }
+  using Item = typename std::decay_t<decltype(next())>::value_type;
+  using Result = std::decay_t<decltype(map(std::declval<Item>()))>;
+  std::deque<std::future<Result>> in_flight;
+  bool more = true;
+  const auto fill = [&] {
+    while (more && in_flight.size() < static_cast<std::size_t>(threads)) {
+      auto item = next();
+      more = item.has_value();
+      if (!more) return;
+      in_flight.push_back(
+          std::async(std::launch::async,
+                     [&map, moved = std::move(*item)]() mutable { return map(std::move(moved)); }));
+    }
+  };
+  for (fill(); !in_flight.empty(); fill()) {
+    Result result = in_flight.front().get();
+    in_flight.pop_front();
+    if (!consume(std::move(result))) return;
+  }
+}
+
+}  // namespace oneac

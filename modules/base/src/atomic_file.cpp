@@ -1,0 +1,73 @@
+#include "oneac/base/atomic_file.h"
+
+#include "oneac/base/error.h"
+
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstring>
+#include <fstream>
+#include <sstream>
+#include <string>
+#include <system_error>
+
+namespace oneac {
+namespace {
+
+namespace fs = std::filesystem;
+
+fs::path temporary_beside(const fs::path& path) {
+  fs::path temporary = path;
+  temporary += ".part" + std::to_string(::getpid());
+  return temporary;
+}
+
+[[noreturn]] void fail(const fs::path& path, const std::string& fault) {
+  throw OutputError(path.string(), fault, "free some space or choose another output folder");
+}
+
+}  // namespace
+
+void write_file_atomically(const fs::path& path, std::string_view content) {
+  const fs::path temporary = temporary_beside(path);
+  std::error_code ignored;
+  {
+    std::ofstream out(temporary, std::ios::binary | std::ios::trunc);
+    out.write(content.data(), static_cast<std::streamsize>(content.size()));
+    out.flush();
+    if (!out) {
+      const std::string reason = std::strerror(errno);
+      out.close();
+      fs::remove(temporary, ignored);
+      fail(path, "cannot be written (" + reason + ")");
+    }
+  }
+  std::error_code error;
+  fs::rename(temporary, path, error);
+  if (error) {
+    fs::remove(temporary, ignored);
+    fail(path, "cannot be put in place (" + error.message() + ")");
+  }
+}
+
+void write_file_atomically(const fs::path& path,
+                           const std::function<void(std::ostream&)>& produce) {
+  std::ostringstream buffer;
+  produce(buffer);
+  write_file_atomically(path, buffer.str());
+}
+
+void require_writable_folder(const fs::path& folder) {
+  const std::string cure = "choose another folder with -o";
+  std::error_code error;
+  fs::create_directories(folder, error);
+  if (!fs::is_directory(folder)) {
+    throw InputError(folder.string(), "output folder cannot be made", cure);
+  }
+  const fs::path probe = temporary_beside(folder / "probe");
+  const bool writable = static_cast<bool>(std::ofstream(probe));
+  fs::remove(probe, error);
+  if (!writable) throw InputError(folder.string(), "output folder is not writable", cure);
+}
+
+}  // namespace oneac

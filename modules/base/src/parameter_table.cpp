@@ -1,0 +1,126 @@
+#include "oneac/base/parameter_table.h"
+
+#include "oneac/base/nearest_name.h"
+
+#include <algorithm>
+#include <charconv>
+#include <stdexcept>
+#include <system_error>
+#include <type_traits>
+
+namespace oneac {
+namespace {
+
+template <class Number>
+bool parse(const std::string& text, Number& value) {
+  const char* end = text.data() + text.size();
+  const auto [stop, error] = std::from_chars(text.data(), end, value);
+  return error == std::errc{} && stop == end;
+}
+
+bool parse(const std::string& text, bool& value) {
+  value = text == "true";
+  return value || text == "false";
+}
+
+bool parse(const std::string& text, std::string& value) {
+  value = text;
+  return true;
+}
+
+const char* type_name(const ParameterTable::Target& target) {
+  static constexpr const char* kNames[] = {"a number", "a whole number",
+                                           "a whole number of at least 0", "true or false", "text"};
+  return kNames[target.index()];
+}
+
+/// Shortest text that reads back as the same number; a decimal point marks it as real.
+std::string text_of(double value) {
+  char buffer[40];
+  const auto end = std::to_chars(buffer, buffer + sizeof buffer, value).ptr;
+  std::string text(buffer, end);
+  if (text.find_first_of(".einf") == std::string::npos) text += ".0";
+  return text;
+}
+std::string text_of(int value) {
+  return std::to_string(value);
+}
+std::string text_of(std::size_t value) {
+  return std::to_string(value);
+}
+std::string text_of(bool value) {
+  return value ? "true" : "false";
+}
+std::string text_of(const std::string& value) {
+  std::string quoted = "\"";
+  for (char c : value) {
+    if (c == '"' || c == '\\') quoted += '\\';
+    quoted += c;
+  }
+  return quoted + '"';
+}
+
+std::vector<std::string> split(const std::string& key) {
+  std::vector<std::string> parts;
+  std::size_t start = 0;
+  for (std::size_t dot = key.find('.'); dot != std::string::npos; dot = key.find('.', start)) {
+    parts.push_back(key.substr(start, dot - start));
+    start = dot + 1;
+  }
+  parts.push_back(key.substr(start));
+  return parts;
+}
+
+}  // namespace
+
+void ParameterTable::set(const std::string& key, const std::string& text) {
+  const auto found = std::find_if(parameters_.begin(), parameters_.end(),
+                                  [&](const Parameter& p) { return p.key == key; });
+  if (found == parameters_.end()) {
+    std::vector<std::string> keys;
+    for (const Parameter& p : parameters_) keys.push_back(p.key);
+    throw std::invalid_argument("unknown key '" + key + "', did you mean '" +
+                                nearest_name(key, keys) + "'?");
+  }
+  const bool good = std::visit(
+      [&](auto* field) {
+        std::remove_pointer_t<decltype(field)> value{};
+        if (!parse(text, value)) return false;
+        *field = value;
+        return true;
+      },
+      found->target);
+  if (!good) {
+    throw std::invalid_argument("key '" + key + "' must be " + type_name(found->target) +
+                                ", not '" + text + "'");
+  }
+}
+
+std::string ParameterTable::value_text(const Parameter& parameter) const {
+  return std::visit([](const auto* field) { return text_of(*field); }, parameter.target);
+}
+
+std::string ParameterTable::to_yaml(bool comments) const {
+  std::string yaml;
+  std::vector<std::string> open;  // sections that the last line stood in
+  for (const Parameter& parameter : parameters_) {
+    std::vector<std::string> path = split(parameter.key);
+    const std::string name = path.back();
+    path.pop_back();
+    const auto shared = static_cast<std::size_t>(
+        std::mismatch(open.begin(), open.end(), path.begin(), path.end()).first - open.begin());
+    for (std::size_t depth = shared; depth < path.size(); ++depth) {
+      yaml += std::string(2 * depth, ' ') + path[depth] + ":\n";
+    }
+    open = path;
+    std::string line = std::string(2 * path.size(), ' ') + name + ": " + value_text(parameter);
+    if (comments) {
+      line.append(line.size() < 40 ? 40 - line.size() : 1, ' ');
+      line += "# [" + parameter.unit + "] " + parameter.meaning;
+    }
+    yaml += line + "\n";
+  }
+  return yaml;
+}
+
+}  // namespace oneac

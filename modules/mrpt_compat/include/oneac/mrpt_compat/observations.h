@@ -1,0 +1,71 @@
+#pragma once
+
+// Every difference between MRPT versions in observations and images, in one place. Written for
+// 2.5.8; a port to a newer release is a matter of this header and of find_package.
+
+#include <mrpt/core/Clock.h>
+#include <mrpt/img/CImage.h>
+#include <mrpt/img/TCamera.h>
+#include <mrpt/obs/CObservation.h>
+#include <mrpt/obs/CObservationGPS.h>
+#include <mrpt/serialization/CArchive.h>
+#include <mrpt/version.h>
+
+#include <opencv2/core.hpp>
+
+#include <cstdint>
+#include <exception>
+#include <string>
+
+// MRPT_VERSION is 0x258 for 2.5.8, and two digits per part (0x020E00) from 2.10.2 on.
+#if MRPT_VERSION < 0x1000
+#define ONEAC_MRPT_MAJOR (MRPT_VERSION >> 8)
+#else
+#define ONEAC_MRPT_MAJOR (MRPT_VERSION >> 16)
+#endif
+
+namespace oneac::compat {
+
+/// Pixels of an image that is in memory; shares them where this version of MRPT allows it.
+inline cv::Mat pixels_of(const mrpt::img::CImage& image) {
+#if ONEAC_MRPT_MAJOR < 3
+  return image.asCvMat<cv::Mat>(mrpt::img::SHALLOW_COPY);
+#else  // CImage holds no OpenCV matrix any more
+  const int depth = image.getPixelDepth() == mrpt::img::PixelDepth::D8U ? CV_8U : CV_16U;
+  const int type = CV_MAKETYPE(depth, static_cast<int>(image.channels()));
+  const cv::Mat borrowed(image.getHeight(), image.getWidth(), type,
+                         const_cast<std::uint8_t*>(image.ptrLine<std::uint8_t>(0)),
+                         image.getRowStride());
+  return borrowed.clone();
+#endif
+}
+
+/// Unix time [s].
+inline double unix_seconds(const mrpt::Clock::time_point& time) {
+  return mrpt::Clock::toDouble(time);
+}
+
+/// "CObservationImage": the class without its namespace, which older versions leave out.
+inline std::string class_name(const mrpt::rtti::CObject& object) {
+  const std::string name = object.GetRuntimeClass()->className;
+  const auto colon = name.rfind(':');
+  return colon == std::string::npos ? name : name.substr(colon + 1);
+}
+
+/// The message of this class in a GPS observation, or nullptr. (MRPT's own getMsgByClassPtr() const
+/// does not compile in 2.5.8.)
+template <class Message>
+const Message* gps_message(const mrpt::obs::CObservationGPS& gps) {
+  return gps.hasMsgClass<Message>() ? &gps.getMsgByClass<Message>() : nullptr;
+}
+
+/// What an MRPT exception says, in one line: 2.x wraps the message in a report with a call stack.
+inline std::string message_of(const std::exception& error) {
+  std::string text = error.what();
+  const std::string tag = "Message:";
+  if (const auto at = text.find(tag); at != std::string::npos) text.erase(0, at + tag.size());
+  text.erase(0, text.find_first_not_of(" \t\r\n"));
+  return text.substr(0, text.find_first_of("\r\n"));
+}
+
+}  // namespace oneac::compat
