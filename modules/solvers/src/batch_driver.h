@@ -1,0 +1,53 @@
+#pragma once
+
+#include "batch_ground.h"
+#include "batch_kernels.h"
+#include "batch_planar.h"
+
+namespace oneac::internal {
+namespace {
+
+inline AcLanes load_lanes(const BatchInput& in, std::size_t first) {
+  return {load(in.entry[0] + first), load(in.entry[1] + first), load(in.entry[2] + first),
+          load(in.entry[3] + first), load(in.entry[4] + first), load(in.entry[5] + first),
+          load(in.entry[6] + first), load(in.entry[7] + first)};
+}
+
+inline void store_lanes(const PoseLanes& pose, const BatchOutput& out, std::size_t first) {
+  store(pose.solved ? pose.cos_alpha : all(1.0), out.entry[0] + first);
+  store(pose.solved ? pose.sin_alpha : all(0.0), out.entry[1] + first);
+  store(pose.solved ? pose.tx : all(0.0), out.entry[2] + first);
+  store(pose.solved ? pose.tz : all(0.0), out.entry[3] + first);
+  for (std::size_t i = 0; i < kLanes; ++i) {
+    out.status[first + i] = pose.solved[i] != 0  ? kBatchSolved
+                            : pose.empty[i] != 0 ? kBatchEmpty
+                                                 : kBatchUndecided;
+  }
+}
+
+/// Whole groups of lanes in place, the rest in a copy padded with zeros.
+template <PoseLanes (*kSolve)(const AcLanes&)>
+inline void drive(const BatchInput& in, const BatchOutput& out, std::size_t size) {
+  std::size_t first = 0;
+  for (; first + kLanes <= size; first += kLanes) {
+    store_lanes(kSolve(load_lanes(in, first)), out, first);
+  }
+  const std::size_t rest = size - first;
+  if (rest == 0) return;
+  double entries[8][kLanes] = {};
+  double poses[4][kLanes];
+  std::uint8_t status[kLanes];
+  for (std::size_t k = 0; k < 8; ++k) {
+    for (std::size_t i = 0; i < rest; ++i) entries[k][i] = in.entry[k][first + i];
+  }
+  const BatchInput padded{{entries[0], entries[1], entries[2], entries[3], entries[4], entries[5],
+                           entries[6], entries[7]}};
+  store_lanes(kSolve(load_lanes(padded, 0)), {{poses[0], poses[1], poses[2], poses[3]}, status}, 0);
+  for (std::size_t i = 0; i < rest; ++i) {
+    for (std::size_t k = 0; k < 4; ++k) out.entry[k][first + i] = poses[k][i];
+    out.status[first + i] = status[i];
+  }
+}
+
+}  // namespace
+}  // namespace oneac::internal

@@ -1,0 +1,37 @@
+#include "oneac/solvers/relpose_1ac_front_wall.h"
+
+#include "planar_plane_system.h"
+
+#include "oneac/solvers/relpose_1ac_ground.h"
+
+#include <cmath>
+
+namespace oneac {
+namespace {
+
+/// On y = 0 only three of the six equations are left, for which there are two solutions.
+bool may_lie_on_wall(const AffineCorrespondence& ac) {
+  return std::abs(ac.x1.y()) > kHorizon;
+}
+
+const internal::KnownPlane kWall{Eigen::Vector3d(0.0, 0.0, 1.0), &may_lie_on_wall};
+
+}  // namespace
+
+SolutionSet<WallPose, 1> relpose_1ac_front_wall(const AffineCorrespondence& ac) {
+  return relpose_nac_front_wall(AcSpan(&ac, 1));
+}
+
+SolutionSet<WallPose, 1> relpose_nac_front_wall(AcSpan acs, const double* weights) {
+  return internal::relpose_known_wall(kWall, acs, weights, &internal::solve_optimal);
+}
+
+SolutionSet<WallPose, 1> relpose_1ac_front_wall_rapid(const AffineCorrespondence& ac) {
+  return relpose_nac_front_wall_rapid(AcSpan(&ac, 1));
+}
+
+SolutionSet<WallPose, 1> relpose_nac_front_wall_rapid(AcSpan acs, const double* weights) {
+  return internal::relpose_known_wall(kWall, acs, weights, &internal::solve_rapid);
+}
+
+}  // namespace oneac

@@ -1,0 +1,25 @@
+#pragma once
+
+/// What the scalar solvers and their batch forms must agree on. Constants only: the batch kernels
+/// are compiled for other instruction sets and must not pull in inline functions.
+namespace oneac::internal {
+
+// Smallest y of a ground point, oneac::kHorizon.
+constexpr double kGroundHorizon = 0.0087;
+// Pivots of a Gram matrix below this share of its trace are rounding: eps times a margin of 100.
+constexpr double kSingularPlaneGram = 2e-14;
+// Below this length [distances to the plane] t has no direction left: the normal equations keep
+// about nine digits on the worst points that are let through.
+constexpr double kNoPlaneMotion = 1e-8;
+// Halley's method on the secular equation takes two steps at 2 % affine noise and converges
+// cubically.
+constexpr int kHalleySteps = 6;
+constexpr double kHalleyStep = 3e-6;
+// A determinant below this share of the squared trace is too near the hard case for Halley's
+// method.
+constexpr double kNearHardCase = 1e-7;
+// A null vector of the planar 3×4 system shorter than this share of the product of the row lengths
+// is rounding: two rows are then parallel and the motion is not determined.
+constexpr double kParallelRows = 1e-12;
+
+}  // namespace oneac::internal
