@@ -1,0 +1,156 @@
+#include "oneac/study/experiment.h"
+
+#include <stdexcept>
+
+namespace oneac {
+namespace {
+
+using M = StudyMotion;
+using P = StudySurface;
+using S = StudySweep;
+
+[[nodiscard]] std::vector<double> evenly(double first, double step, int count) {
+  std::vector<double> values;
+  for (int i = 0; i < count; ++i) values.push_back(first + step * i);
+  return values;
+}
+
+[[nodiscard]] std::vector<Experiment> all_experiments() {
+  const Method pc4 = Method::pc4, ac2 = Method::ac2;
+  return {
+      {"forward_ground",
+       "Forward motion, ground",
+       M::forward,
+       P::ground,
+       S::noise,
+       {Method::ac1_ground, pc4, ac2}},
+      {"forward_front",
+       "Forward motion, frontal wall",
+       M::forward,
+       P::front_wall,
+       S::noise,
+       {Method::ac1_front_wall, pc4, ac2}},
+      {"forward_wall",
+       "Forward motion, turned wall",
+       M::forward,
+       P::any_wall,
+       S::wall_angle,
+       {Method::ac1_wall, pc4, ac2}},
+      {"sideways_wall",
+       "Sideways motion, turned wall",
+       M::sideways,
+       P::any_wall,
+       S::wall_angle,
+       {Method::ac1_wall, pc4, ac2}},
+      {"tilt_ground",
+       "Forward motion, ground, tilted second camera",
+       M::forward,
+       P::ground,
+       S::tilt,
+       {Method::ac1_ground, pc4, ac2}},
+      {"tilt_front",
+       "Forward motion, frontal wall, tilted second camera",
+       M::forward,
+       P::front_wall,
+       S::tilt,
+       {Method::ac1_front_wall, pc4, ac2}},
+      {"sideways_ground",
+       "Sideways motion, ground",
+       M::sideways,
+       P::ground,
+       S::noise,
+       {Method::ac1_ground, pc4, ac2}},
+      {"sideways_side",
+       "Sideways motion, side wall",
+       M::sideways,
+       P::side_wall,
+       S::noise,
+       {Method::ac1_side_wall, pc4, ac2}},
+      {"rapid_ground",
+       "Rapid against optimal, forward motion, ground",
+       M::forward,
+       P::ground,
+       S::noise,
+       {Method::ac1_ground, Method::ac1_ground_rapid}},
+      {"rapid_front",
+       "Rapid against optimal, forward motion, frontal wall",
+       M::forward,
+       P::front_wall,
+       S::noise,
+       {Method::ac1_front_wall, Method::ac1_front_wall_rapid}},
+  };
+}
+
+}  // namespace
+
+std::string Figure::name() const {
+  return std::string(id) + "_" + std::string(experiment) + "_" + std::string(metric_name(metric));
+}
+
+const std::vector<Experiment>& experiments() {
+  static const std::vector<Experiment> kExperiments = all_experiments();
+  return kExperiments;
+}
+
+const std::vector<Figure>& figures() {
+  const auto rotation = StudyMetric::rotation, translation = StudyMetric::translation;
+  static const std::vector<Figure> kFigures = {
+      {"a", "forward_ground", rotation},
+      {"b", "forward_ground", translation},
+      {"c", "forward_front", rotation},
+      {"d", "forward_front", translation},
+      {"e", "forward_wall", rotation},
+      {"f", "forward_wall", translation},
+      {"g", "sideways_wall", rotation},
+      {"h", "sideways_wall", translation},
+      {"i1", "tilt_ground", rotation},
+      {"i2", "tilt_ground", translation},
+      {"i3", "tilt_front", rotation},
+      {"i4", "tilt_front", translation},
+      {"s1", "sideways_ground", rotation},
+      {"s2", "sideways_ground", translation},
+      {"s3", "sideways_side", rotation},
+      {"s4", "sideways_side", translation},
+      {"s5", "forward_wall", StudyMetric::normal},
+      {"s6", "sideways_wall", StudyMetric::normal},
+      {"s7", "rapid_ground", rotation},
+      {"s8", "rapid_ground", translation},
+      {"s9", "rapid_front", rotation},
+      {"s10", "rapid_front", translation},
+  };
+  return kFigures;
+}
+
+const Experiment& experiment_named(std::string_view name) {
+  for (const Experiment& experiment : experiments()) {
+    if (experiment.name == name) return experiment;
+  }
+  throw std::invalid_argument("experiment: no such name: " + std::string(name));
+}
+
+std::vector<double> sweep_values(StudySweep sweep) {
+  if (sweep == S::wall_angle) return evenly(-80.0, 10.0, 17);
+  return evenly(0.0, 0.1, 11);
+}
+
+std::string_view sweep_column(StudySweep sweep) {
+  if (sweep == S::wall_angle) return "wall_angle_deg";
+  return sweep == S::tilt ? "tilt_deg" : "noise_px";
+}
+
+std::string_view sweep_label(StudySweep sweep) {
+  if (sweep == S::wall_angle) return "angle of the wall about the vertical [°]";
+  if (sweep == S::tilt) return "tilt of the second camera about its X axis [°]";
+  return "point noise [px], with affine noise of 5° and 5 % per px";
+}
+
+std::string_view sweep_unit(StudySweep sweep) {
+  return sweep == S::noise ? "px" : "°";
+}
+
+std::string_view metric_name(StudyMetric metric) {
+  if (metric == StudyMetric::normal) return "normal";
+  return metric == StudyMetric::rotation ? "rotation" : "translation";
+}
+
+}  // namespace oneac

@@ -1,0 +1,138 @@
+#include "oneac/study/trial.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace oneac {
+namespace {
+
+// Motion along the normal is a double root of the general wall and of both homographies: their
+// error is the square root of rounding.
+constexpr double kRounding_rad = 1e-6;
+
+TEST(Trial, ZeroNoiseGivesZeroErrorForEveryMethodOfEveryExperiment) {
+  for (const Experiment& experiment : experiments()) {
+    if (experiment.sweep == StudySweep::tilt) continue;  // breaks the planar model on purpose
+    for (const double value : sweep_values(experiment.sweep)) {
+      StudyScene scene = scene_at(experiment, value);
+      scene.noise = {};
+      for (std::uint64_t seed = 0; seed < 20; ++seed) {
+        TrialRandom random(trial_seed(1, experiment.name, 0, seed));
+        const auto acs = draw_correspondences(scene, NoiseShape::fixed, random);
+        for (const Method method : experiment.methods) {
+          const AcSpan span(acs.data(), acs.size());
+          const auto errors = errors_of(method, DataUse::all, span, scene);
+          ASSERT_TRUE(errors) << experiment.name << " " << value << " " << method_label(method);
+          EXPECT_LT(errors->rotation, kRounding_rad) << experiment.name << method_label(method);
+          EXPECT_LT(errors->translation, 100 * kRounding_rad)
+              << experiment.name << " " << value << " " << method_label(method) << seed;
+        }
+      }
+    }
+  }
+}
+
+TEST(Trial, ScenesAreThoseOfThePaper) {
+  for (const Experiment& experiment : experiments()) {
+    for (const double value : sweep_values(experiment.sweep)) {
+      const StudyScene scene = scene_at(experiment, value);
+      EXPECT_DOUBLE_EQ(scene.plane.d, 1.0);
+      EXPECT_NEAR(scene.plane.n.norm(), 1.0, 1e-15);
+      EXPECT_NEAR(scene.T_2_1.t.norm(), 0.1, 1e-15);
+      // The camera's own way in the first frame: forward or to the right.
+      const Eigen::Vector3d way = -(scene.T_2_1.R.transpose() * scene.T_2_1.t);
+      const Eigen::Vector3d axis = experiment.motion == StudyMotion::forward
+                                       ? Eigen::Vector3d::UnitZ()
+                                       : Eigen::Vector3d::UnitX();
+      EXPECT_LT((way - 0.1 * axis).norm(), 1e-15);
+    }
+  }
+}
+
+TEST(Trial, NoiseLevelsAreThoseOfThePaper) {
+  const NoiseLevel swept = scene_at(experiment_named("forward_ground"), 0.4).noise;
+  EXPECT_DOUBLE_EQ(swept.point_px, 0.4);
+  EXPECT_DOUBLE_EQ(swept.rotation_deg, 2.0);
+  EXPECT_DOUBLE_EQ(swept.scale_percent, 2.0);
+  const NoiseLevel turned = scene_at(experiment_named("forward_wall"), -30.0).noise;
+  EXPECT_DOUBLE_EQ(turned.point_px, 1.0);
+  EXPECT_DOUBLE_EQ(turned.rotation_deg, 5.0);
+  const NoiseLevel tilted = scene_at(experiment_named("tilt_front"), 0.5).noise;
+  EXPECT_DOUBLE_EQ(tilted.rotation_deg, 1.0);
+  EXPECT_DOUBLE_EQ(tilted.scale_percent, 1.0);
+}
+
+TEST(Trial, TiltTurnsTheSecondCameraAboutItsXAxis) {
+  const StudyScene scene = scene_at(experiment_named("tilt_ground"), 0.8);
+  const Eigen::Matrix3d& R = scene.T_2_1.R;
+  EXPECT_NEAR(std::acos(0.5 * (R.trace() - 1.0)), 0.8 * 3.141592653589793 / 180.0, 1e-9);
+  EXPECT_LT((R * Eigen::Vector3d::UnitX() - Eigen::Vector3d::UnitX()).norm(), 1e-15);
+}
+
+TEST(Trial, PointsLieOnThePlaneBeforeBothCamerasAndInBothImages) {
+  for (const Experiment& experiment : experiments()) {
+    for (const double value : sweep_values(experiment.sweep)) {
+      StudyScene scene = scene_at(experiment, value);
+      scene.noise = {};
+      TrialRandom random(3);
+      for (const AffineCorrespondence& ac :
+           draw_correspondences(scene, NoiseShape::uniform, random)) {
+        const double depth = 1.0 / scene.plane.n.dot(Eigen::Vector3d(ac.x1.x(), ac.x1.y(), 1.0));
+        EXPECT_GT(depth, 0.0);
+        EXPECT_LE(depth, kStudyMaxDepth * (1.0 + 1e-12));
+        const Eigen::Vector3d X1 = depth * Eigen::Vector3d(ac.x1.x(), ac.x1.y(), 1.0);
+        const Eigen::Vector3d X2 = scene.T_2_1 * X1;
+        EXPECT_LT((Eigen::Vector2d(X2.x(), X2.y()) / X2.z() - ac.x2).norm(), 1e-12);
+        EXPECT_LE(ac.x1.cwiseAbs().maxCoeff(), kStudyHalfImage);
+        EXPECT_LE(ac.x2.cwiseAbs().maxCoeff(), kStudyHalfImage);
+      }
+    }
+  }
+}
+
+TEST(Trial, MethodsUseAsManyCorrespondencesAsTheirNamesSay) {
+  const StudyScene scene = scene_at(experiment_named("forward_ground"), 0.5);
+  TrialRandom random(8);
+  const auto acs = draw_correspondences(scene, NoiseShape::uniform, random);
+  const auto error = [&](Method method, DataUse use, std::size_t broken) {
+    auto changed = acs;
+    changed[broken].x2 += Eigen::Vector2d(0.01, 0.02);
+    return errors_of(method, use, AcSpan(changed.data(), 4), scene)->translation;
+  };
+  EXPECT_NE(error(Method::ac1_ground, DataUse::minimal, 0),
+            error(Method::ac1_ground, DataUse::minimal, 1));
+  EXPECT_EQ(error(Method::ac1_ground, DataUse::minimal, 1),
+            error(Method::ac1_ground, DataUse::minimal, 3));
+  EXPECT_EQ(error(Method::ac2, DataUse::minimal, 2), error(Method::ac2, DataUse::minimal, 3));
+  EXPECT_NE(error(Method::ac2, DataUse::minimal, 1), error(Method::ac2, DataUse::minimal, 3));
+  EXPECT_NE(error(Method::ac1_ground, DataUse::all, 2), error(Method::ac1_ground, DataUse::all, 3));
+  EXPECT_NE(error(Method::ac2, DataUse::all, 2), error(Method::ac2, DataUse::all, 3));
+}
+
+TEST(Trial, EveryMethodIsGivenItsCandidateClosestToTheTruth) {
+  const StudyScene scene = scene_at(experiment_named("forward_wall"), 40.0);
+  int two = 0;
+  for (std::uint64_t seed = 0; seed < 200; ++seed) {
+    TrialRandom random(seed);
+    const auto acs = draw_correspondences(scene, NoiseShape::uniform, random);
+    const AcSpan span(acs.data(), acs.size());
+    for (const Method method : {Method::ac1_wall, Method::pc4, Method::ac2}) {
+      const auto candidates = candidates_of(method, span, DataUse::all);
+      two += candidates.size() == 2 ? 1 : 0;
+      const auto errors = errors_of(method, DataUse::all, span, scene);
+      for (const PlanePose& pose : candidates) {
+        const double trace = (pose.motion.R * scene.T_2_1.R.transpose()).trace();
+        const double rotation = std::acos(std::min(1.0, 0.5 * (trace - 1.0)));
+        const double cosine =
+            pose.motion.t.dot(scene.T_2_1.t) / (pose.motion.t.norm() * scene.T_2_1.t.norm());
+        EXPECT_LE(errors->rotation + errors->translation,
+                  rotation + std::acos(std::max(-1.0, std::min(1.0, cosine))) + 1e-6);
+      }
+    }
+  }
+  EXPECT_GT(two, 300);  // the choice exists
+}
+
+}  // namespace
+}  // namespace oneac
