@@ -1,0 +1,61 @@
+#pragma once
+
+#include "oneac/geometry/relative_pose.h"
+#include "oneac/solvers/span.h"
+
+#include <cstddef>
+#include <optional>
+#include <vector>
+
+namespace oneac {
+
+/// Length of a step from the road and the camera's height. validate() throws std::invalid_argument.
+struct GroundScaleOptions {
+  double max_distance = 15.0;      ///< [camera heights] farther road has no parallax and few pixels
+  double max_side = 4.0;           ///< [camera heights] to either side: the lane and its neighbours
+  double affine_tolerance = 0.25;  ///< [-] |A − A_ground| (Frobenius) of a ground correspondence
+  double bandwidth = 0.05;         ///< [-] relative spread of heights that count as the same plane
+  int min_support = 8;             ///< ground correspondences needed, and ...
+  double max_uncertainty = 0.06;   ///< ... [-] relative 1σ of the length allowed for "metric"
+  double plane_tilt_deg = 0.7;     ///< [deg] 1σ of the road's slope against the levelled camera
+
+  void validate() const;
+};
+
+template <class Visitor>
+void describe(Visitor&& visit, GroundScaleOptions& o) {
+  visit("max_distance", o.max_distance, "camera heights", "farther road is not used");
+  visit("max_side", o.max_side, "camera heights", "road farther to the side is not used");
+  visit("affine_tolerance", o.affine_tolerance, "-", "affinity error of a ground correspondence");
+  visit("bandwidth", o.bandwidth, "-", "relative spread of heights on one plane");
+  visit("min_support", o.min_support, "count", "ground correspondences needed");
+  visit("max_uncertainty", o.max_uncertainty, "-", "relative 1-sigma of a metric length");
+  visit("plane_tilt_deg", o.plane_tilt_deg, "deg",
+        "1-sigma of the road against the levelled camera");
+}
+
+/// What the road says about the length of one step.
+struct GroundScale {
+  double baseline = 0.0;     ///< |t| in camera heights
+  double uncertainty = 0.0;  ///< relative 1σ of it, from the spread of the support
+  std::size_t support = 0;   ///< correspondences on the ground plane
+};
+
+/// Length of the translation in camera heights from the correspondences on the ground; empty when
+/// the support or its agreement does not carry it.
+///
+/// Each inlier is triangulated with the unit translation and votes for the height Y of the camera
+/// above its horizontal plane, weighted by its parallax; the ground is the heaviest mode among
+/// correspondences whose affinity agrees with a horizontal plane. The plane is then refined with a
+/// slope (IRLS, slope held by its prior): a slope of 0.5° would otherwise change the length by 5 %.
+/// @param acs       normalised correspondences of the tilted camera
+/// @param inliers   those that obey the pose, one flag each
+/// @param T_2_1     motion of the tilted camera, |t| = 1
+/// @param sigma     1σ of a point's position [-, normalised]
+[[nodiscard]] std::optional<GroundScale> ground_scale(AcSpan acs, const std::vector<bool>& inliers,
+                                                      const RelativePose& T_2_1,
+                                                      const Eigen::Matrix3d& R_level_cam,
+                                                      double sigma,
+                                                      const GroundScaleOptions& options);
+
+}  // namespace oneac

@@ -1,0 +1,72 @@
+#pragma once
+
+#include "oneac/geometry/relative_pose.h"
+#include "oneac/solvers/span.h"
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+namespace oneac {
+
+/// What a robust estimate amounts to.
+enum class PoseStatus {
+  kOk,        ///< pose with a direction of translation
+  kNoMotion,  ///< the camera did not travel: t = 0 is the answer; R ≠ I when it rocked or turned
+  kTooFew,    ///< too few correspondences or inliers: no pose
+};
+[[nodiscard]] const char* to_string(PoseStatus status);
+
+/// Exhaustive one-AC consensus. validate() throws std::invalid_argument naming field, value, bound.
+struct ConsensusOptions {
+  bool ground = true;         ///< hypotheses of the ground solver
+  bool planar = true;         ///< hypotheses of the plane-free planar solver
+  double threshold_px = 1.0;  ///< [px] Sampson inlier bound; DoG points repeat to 0.3…0.5 px (1σ)
+  double pitch_sweep_deg =
+      1.8;  ///< [deg] relative pitch covered each way; the suspension gives up to this
+  double pitch_step_deg = 0.3;  ///< [deg] at f = 700 px 3.7 px: within the basin of the polishing
+  int modes = 16;  ///< distinct hypotheses that are polished; beyond twelve none was worth it
+  double mode_rotation_deg = 0.2;   ///< [deg] modes closer than both are one
+  double mode_direction_deg = 8.0;  ///< [deg] polishing comes back from farther
+  int min_inliers = 15;             ///< fewer support nothing: five unknowns, three times over
+  double standing_px =
+      0.35;  ///< [px] median shift beside a rotation that is noise: the camera stands
+
+  void validate() const;
+};
+
+template <class Visitor>
+void describe(Visitor&& visit, ConsensusOptions& o) {
+  visit("ground", o.ground, "bool", "hypotheses of the ground solver");
+  visit("planar", o.planar, "bool", "hypotheses of the plane-free planar solver");
+  visit("threshold_px", o.threshold_px, "px", "Sampson inlier bound");
+  visit("pitch_sweep_deg", o.pitch_sweep_deg, "deg", "relative pitch covered each way");
+  visit("pitch_step_deg", o.pitch_step_deg, "deg", "step of the sweep");
+  visit("modes", o.modes, "count", "distinct hypotheses that are polished");
+  visit("mode_rotation_deg", o.mode_rotation_deg, "deg", "hypotheses closer than this ...");
+  visit("mode_direction_deg", o.mode_direction_deg, "deg", "... and this are one mode");
+  visit("min_inliers", o.min_inliers, "count", "a pose with fewer is refused");
+  visit("standing_px", o.standing_px, "px", "median shift, rotation removed, of a standing camera");
+}
+
+struct ConsensusResult {
+  PoseStatus status = PoseStatus::kTooFew;
+  RelativePose pose;          ///< camera frame (tilt put back), |t| = 1 or 0
+  std::vector<bool> inliers;  ///< one per correspondence
+  std::size_t inlier_count = 0;
+  std::size_t hypotheses = 0;  ///< scored
+  double cost = 0.0;           ///< MSAC cost of the result, 0 … number of correspondences
+};
+
+/// Relative pose from one-AC hypotheses without a random number: every correspondence is solved at
+/// every relative pitch of the sweep, every hypothesis is scored on all points (MSAC on the Sampson
+/// distance), the best few distinct ones are polished on all correspondences with five degrees of
+/// freedom, and the best after polishing wins.
+///
+/// @param acs          normalised correspondences of the (tilted) camera
+/// @param R_level_cam  removes the camera's tilt (geometry/leveling.h), the same in both views
+/// @param focal_px     what turns threshold_px into normalised units [px]
+[[nodiscard]] ConsensusResult one_ac_consensus(AcSpan acs, const Eigen::Matrix3d& R_level_cam,
+                                               double focal_px, const ConsensusOptions& options);
+
+}  // namespace oneac

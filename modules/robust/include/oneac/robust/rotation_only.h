@@ -1,0 +1,20 @@
+#pragma once
+
+#include "oneac/solvers/span.h"
+
+#include <Eigen/Core>
+
+#include <vector>
+
+namespace oneac {
+
+/// The rotation that best maps x1 to x2 when the camera does not translate, x2 ≈ π(R x1).
+///
+/// Gauss–Newton from the identity with a Geman–McClure loss, its scale lowered to `threshold`.
+/// @param threshold  [-] normalised image units
+[[nodiscard]] Eigen::Matrix3d fit_rotation(AcSpan acs, double threshold);
+
+/// |x2 − π(R x1)| of each correspondence [-]; infinity for a point that R turns behind the camera.
+[[nodiscard]] std::vector<double> rotation_transfer_errors(const Eigen::Matrix3d& R, AcSpan acs);
+
+}  // namespace oneac

@@ -1,0 +1,169 @@
+#include "oneac/robust/ground_scale.h"
+
+#include "oneac/geometry/homography.h"
+#include "oneac/geometry/triangulation.h"
+
+#include <Eigen/Dense>
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+#include <string>
+
+namespace oneac {
+namespace {
+
+constexpr double kDegree = 3.14159265358979323846 / 180.0;
+constexpr int kPlaneIterations = 10;  // IRLS; the weights settle after four to six
+// Smallest height of the camera above a ground point [baselines]: a step of more than 20 camera
+// heights, 30 m from one frame to the next, is not driving.
+constexpr double kSmallestHeight = 0.05;
+
+/// A correspondence that may lie on the ground, in the levelled first frame, unit: baselines.
+struct Candidate {
+  Eigen::Vector3d X;
+  double relative_sigma;  ///< of its depth, hence of its height
+  double weight;          ///< how well its affinity fits a horizontal plane, 0 … 1
+};
+
+/// Relative error of the depth: position noise over the shift that the translation causes.
+double depth_sigma(const RelativePose& T, const AffineCorrespondence& ac, double z1, double sigma) {
+  const Eigen::Vector3d rotated = T.R * ac.x1.homogeneous();
+  const Eigen::Vector2d at_infinity = rotated.head<2>() / rotated.z();
+  const double shift = (ac.x2 - at_infinity).norm();
+  return shift > 0.0 && z1 > 0.0 ? sigma * std::sqrt(2.0) / shift : 1e9;
+}
+
+/// 1 for an affinity that the horizontal plane through the point explains, falling to 0.
+double affine_agreement(const RelativePose& T, const AffineCorrespondence& ac,
+                        const Eigen::Vector3d& down, double height, double tolerance) {
+  const auto predicted =
+      correspondence_from_homography(plane_induced_homography(T, {down, height}), ac.x1);
+  if (!predicted) return 0.0;
+  const double error = (predicted->A - ac.A).norm() / tolerance;
+  return std::exp(-0.5 * error * error);
+}
+
+std::vector<Candidate> ground_candidates(AcSpan acs, const std::vector<bool>& inliers,
+                                         const RelativePose& T, const Eigen::Matrix3d& L,
+                                         double sigma, const GroundScaleOptions& options) {
+  const Eigen::Vector3d down = L.row(1).transpose();  // levelled Y in the camera frame
+  std::vector<Candidate> candidates;
+  for (std::size_t i = 0; i < acs.size(); ++i) {
+    if (!inliers[i]) continue;
+    const auto point = triangulate(T, acs[i].x1, acs[i].x2);
+    if (!point || !point->in_front()) continue;
+    const Eigen::Vector3d X = L * (point->z1 * acs[i].x1.homogeneous());
+    if (!(X.y() > kSmallestHeight)) continue;
+    if (X.z() > options.max_distance * X.y()) continue;
+    if (std::abs(X.x()) > options.max_side * X.y()) continue;
+    const double relative_sigma = depth_sigma(T, acs[i], point->z1, sigma);
+    if (!(relative_sigma < 0.3)) continue;  // no parallax
+    const double weight = affine_agreement(T, acs[i], down, X.y(), options.affine_tolerance);
+    if (weight > 0.01) candidates.push_back({X, relative_sigma, weight});
+  }
+  return candidates;
+}
+
+/// Height of the heaviest horizontal plane: mode of a Gaussian kernel density over log Y.
+double heaviest_height(const std::vector<Candidate>& candidates, double bandwidth) {
+  double best = 0.0;
+  double best_density = -1.0;
+  for (const Candidate& centre : candidates) {
+    double density = 0.0;
+    for (const Candidate& c : candidates) {
+      const double width = std::hypot(bandwidth, c.relative_sigma);
+      const double z = std::log(c.X.y() / centre.X.y()) / width;
+      density += c.weight * std::exp(-0.5 * z * z) * bandwidth / width;
+    }
+    if (density <= best_density) continue;
+    best_density = density;
+    best = centre.X.y();
+  }
+  return best;
+}
+
+/// Y = d + a X + b Z in the levelled frame.
+struct RoadPlane {
+  double d = 0.0, a = 0.0, b = 0.0;
+  double sigma_d = 0.0;  ///< 1σ of d
+  std::size_t support = 0;
+
+  [[nodiscard]] double height_at(const Eigen::Vector3d& X) const {
+    return d + a * X.x() + b * X.z();
+  }
+  [[nodiscard]] double distance() const { return d / std::sqrt(1.0 + a * a + b * b); }
+};
+
+/// Iteratively reweighted least squares with a Geman–McClure weight at 2.5 bandwidths.
+RoadPlane fit_plane(const std::vector<Candidate>& candidates, double height,
+                    const GroundScaleOptions& options) {
+  RoadPlane plane{height, 0.0, 0.0, height, 0};
+  const double slope_information = 1.0 / std::pow(options.plane_tilt_deg * kDegree, 2);
+  for (int iteration = 0; iteration < kPlaneIterations; ++iteration) {
+    Eigen::Matrix3d H = Eigen::Vector3d(0.0, slope_information, slope_information).asDiagonal();
+    Eigen::Vector3d g = Eigen::Vector3d::Zero();
+    double chi2 = 0.0;
+    double weights = 0.0;
+    plane.support = 0;
+    for (const Candidate& c : candidates) {
+      // Y, X, Z all scale with the depth, so the error of the residual is that of the depth times
+      // the plane's height.
+      const double width = std::hypot(options.bandwidth, c.relative_sigma) * plane.d;
+      const double z = (c.X.y() - plane.height_at(c.X)) / width;
+      const double robust = c.weight / std::pow(1.0 + z * z / 6.25, 2);
+      const Eigen::Vector3d row(1.0, c.X.x(), c.X.z());
+      H += robust / (width * width) * row * row.transpose();
+      g += robust / (width * width) * row * c.X.y();
+      chi2 += robust * z * z;
+      weights += robust;
+      if (std::abs(z) < 2.5 && c.weight > 0.3) ++plane.support;
+    }
+    const Eigen::LDLT<Eigen::Matrix3d> factor(H);
+    const Eigen::Vector3d solution = factor.solve(g);
+    if (!solution.allFinite() || !(solution(0) > kSmallestHeight)) return {};
+    plane.d = solution(0);
+    plane.a = solution(1);
+    plane.b = solution(2);
+    const double variance_factor = weights > 0.0 ? std::max(chi2 / weights, 0.1) : 1.0;
+    plane.sigma_d = std::sqrt(factor.solve(Eigen::Vector3d::UnitX()).x() * variance_factor);
+  }
+  return plane;
+}
+
+}  // namespace
+
+void GroundScaleOptions::validate() const {
+  const auto require = [](bool good, const char* field, double value, const char* bound) {
+    if (good) return;
+    throw std::invalid_argument(std::string("ground_scale.") + field + " = " +
+                                std::to_string(value) + ", must be " + bound);
+  };
+  require(max_distance > 0.0, "max_distance", max_distance, "positive");
+  require(max_side > 0.0, "max_side", max_side, "positive");
+  require(affine_tolerance > 0.0, "affine_tolerance", affine_tolerance, "positive");
+  require(bandwidth > 0.0, "bandwidth", bandwidth, "positive");
+  require(min_support >= 1, "min_support", min_support, "at least 1");
+  require(max_uncertainty > 0.0, "max_uncertainty", max_uncertainty, "positive");
+  require(plane_tilt_deg > 0.0, "plane_tilt_deg", plane_tilt_deg, "positive");
+}
+
+std::optional<GroundScale> ground_scale(AcSpan acs, const std::vector<bool>& inliers,
+                                        const RelativePose& T_2_1,
+                                        const Eigen::Matrix3d& R_level_cam, double sigma,
+                                        const GroundScaleOptions& options) {
+  if (!(T_2_1.t.norm() > 0.0)) return std::nullopt;
+  const std::vector<Candidate> candidates =
+      ground_candidates(acs, inliers, T_2_1, R_level_cam, sigma, options);
+  if (candidates.size() < static_cast<std::size_t>(options.min_support)) return std::nullopt;
+  const double height = heaviest_height(candidates, options.bandwidth);
+  const RoadPlane plane = fit_plane(candidates, height, options);
+  if (plane.support < static_cast<std::size_t>(options.min_support)) return std::nullopt;
+  const double distance = plane.distance();
+  if (!(distance > kSmallestHeight) || !std::isfinite(distance)) return std::nullopt;
+  const double uncertainty = plane.sigma_d / plane.d;
+  if (!(uncertainty < options.max_uncertainty)) return std::nullopt;
+  return GroundScale{T_2_1.t.norm() / distance, uncertainty, plane.support};
+}
+
+}  // namespace oneac

@@ -1,0 +1,104 @@
+#include "oneac/robust/ground_scale.h"
+
+#include "oneac/geometry/leveling.h"
+#include "oneac/test_support/scenes.h"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Geometry>
+
+#include <cmath>
+#include <stdexcept>
+
+namespace oneac {
+namespace {
+
+constexpr double kDegree = 3.14159265358979323846 / 180.0;
+constexpr double kSigma = 0.5 / 700.0;
+const Eigen::Matrix3d kLevel = Eigen::Matrix3d::Identity();
+
+RelativePose forward(double length) {
+  return {yaw_rotation(std::cos(0.02), std::sin(0.02)), {0.05 * length, 0.0, -length}};
+}
+
+RelativePose with_unit_length(RelativePose T) {
+  T.t.normalize();
+  return T;
+}
+
+/// Road points a few heights ahead and wall points beside, all of height 1.
+std::vector<AffineCorrespondence> road_and_walls(SceneGenerator& scene, const RelativePose& T,
+                                                 int road, int wall, double noise) {
+  std::vector<AffineCorrespondence> acs;
+  const Plane ground{Eigen::Vector3d::UnitY(), 1.0};
+  const auto add = [&](const Plane& plane, double low_y, double high_y) {
+    const auto H = plane_induced_homography(T, plane);
+    for (;;) {
+      const Eigen::Vector2d x1 = scene.image_point(low_y, high_y);
+      if (plane.d / plane.n.dot(x1.homogeneous()) < 1.5) continue;
+      const auto ac = correspondence_from_homography(H, x1);
+      if (!ac) continue;
+      acs.push_back(scene.with_noise(*ac, noise, 20.0 * noise));
+      return;
+    }
+  };
+  for (int i = 0; i < road; ++i) add(ground, 0.12, 0.4);
+  for (int i = 0; i < wall; ++i) add({Eigen::Vector3d::UnitX(), 3.0}, -0.3, 0.25);
+  return acs;
+}
+
+TEST(GroundScale, GivesTheStepInCameraHeights) {
+  SceneGenerator scene(31);
+  for (double length : {0.3, 0.6, 1.0}) {
+    const RelativePose T = forward(length);
+    const auto acs = road_and_walls(scene, T, 80, 120, 0.3 * kSigma);
+    const auto scale = ground_scale(acs, std::vector<bool>(acs.size(), true), with_unit_length(T),
+                                    kLevel, kSigma, {});
+    ASSERT_TRUE(scale.has_value()) << length;
+    EXPECT_NEAR(scale->baseline / T.t.norm(), 1.0, 0.02) << length;
+    EXPECT_GE(scale->support, 40U);
+  }
+}
+
+TEST(GroundScale, WorksForATiltedCamera) {
+  SceneGenerator scene(32);
+  const RelativePose level_motion = forward(0.8);
+  const Eigen::Matrix3d L = leveling_rotation({8.0 * kDegree, 0.0});
+  auto acs = road_and_walls(scene, level_motion, 80, 80, 0.3 * kSigma);
+  for (auto& ac : acs) ac = *rotate_views(ac, L.transpose(), L.transpose());
+  const auto scale = ground_scale(acs, std::vector<bool>(acs.size(), true),
+                                  with_unit_length(unlevel(level_motion, L)), L, kSigma, {});
+  ASSERT_TRUE(scale.has_value());
+  EXPECT_NEAR(scale->baseline / level_motion.t.norm(), 1.0, 0.02);
+}
+
+TEST(GroundScale, SaysNothingWithoutRoad) {
+  SceneGenerator scene(33);
+  const RelativePose T = forward(0.8);
+  const auto acs = road_and_walls(scene, T, 0, 150, 0.3 * kSigma);
+  EXPECT_FALSE(ground_scale(acs, std::vector<bool>(acs.size(), true), with_unit_length(T), kLevel,
+                            kSigma, {})
+                   .has_value());
+}
+
+TEST(GroundScale, UsesInliersOnly) {
+  SceneGenerator scene(34);
+  const RelativePose T = forward(0.8);
+  const auto acs = road_and_walls(scene, T, 80, 0, 0.3 * kSigma);
+  EXPECT_FALSE(ground_scale(acs, std::vector<bool>(acs.size(), false), with_unit_length(T), kLevel,
+                            kSigma, {})
+                   .has_value());
+}
+
+TEST(GroundScale, SaysNothingWithoutTranslation) {
+  EXPECT_FALSE(ground_scale({}, {}, RelativePose{}, kLevel, kSigma, {}).has_value());
+}
+
+TEST(GroundScaleOptions, NameFieldValueAndBound) {
+  GroundScaleOptions options;
+  options.bandwidth = 0.0;
+  EXPECT_THROW(options.validate(), std::invalid_argument);
+}
+
+}  // namespace
+}  // namespace oneac

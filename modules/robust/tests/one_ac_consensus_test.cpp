@@ -1,0 +1,164 @@
+#include "oneac/robust/one_ac_consensus.h"
+
+#include "oneac/geometry/angular_errors.h"
+#include "oneac/geometry/leveling.h"
+#include "oneac/robust/hypotheses.h"
+#include "oneac/test_support/scenes.h"
+
+#include <gtest/gtest.h>
+
+#include <stdexcept>
+
+namespace oneac {
+namespace {
+
+constexpr double kDegree = 3.14159265358979323846 / 180.0;
+constexpr double kFocal = 700.0;
+const Eigen::Matrix3d kLevel = Eigen::Matrix3d::Identity();
+
+/// Road and walls with half a pixel of noise and noisy affinities; `outliers` of a hundred are
+/// wrong.
+std::vector<AffineCorrespondence> street(SceneGenerator& scene, const RelativePose& T,
+                                         int outliers = 20) {
+  std::vector<AffineCorrespondence> acs;
+  const Plane ground = scene.ground();
+  for (int i = 0; i < 300; ++i) {
+    const Plane plane = i % 3 == 0 ? ground : scene.any_plane();
+    acs.push_back(scene.with_noise(scene.on_plane(T, plane), 0.5 / kFocal, 0.02));
+    if (i % 100 < outliers) acs.back().x2 = scene.image_point();
+  }
+  return acs;
+}
+
+void expect_close(const ConsensusResult& result, const RelativePose& truth, int trial) {
+  ASSERT_EQ(result.status, PoseStatus::kOk) << "trial " << trial;
+  EXPECT_LT(rotation_error(result.pose.R, truth.R), 0.2 * kDegree) << "trial " << trial;
+  EXPECT_LT(direction_error(result.pose.t, truth.t), 2.0 * kDegree) << "trial " << trial;
+}
+
+TEST(OneAcConsensus, FindsPlanarMotionAmongOutliers) {
+  SceneGenerator scene(21);
+  for (int trial = 0; trial < 10; ++trial) {
+    const RelativePose T = scene.planar_motion();
+    expect_close(one_ac_consensus(street(scene, T, 50), kLevel, kFocal, {}), T, trial);
+  }
+}
+
+TEST(OneAcConsensus, CoversTheSuspensionsPitchBetweenTheFrames) {
+  SceneGenerator scene(22);
+  for (double pitch : {-1.7, -0.8, 0.75, 1.6}) {
+    RelativePose T = scene.planar_motion();
+    T.R = pitch_rotation(pitch * kDegree) * T.R;
+    expect_close(one_ac_consensus(street(scene, T), kLevel, kFocal, {}), T,
+                 static_cast<int>(10 * pitch));
+  }
+}
+
+TEST(OneAcConsensus, RemovesTheCamerasTiltAndPutsItBack) {
+  SceneGenerator scene(23);
+  const Eigen::Matrix3d L = leveling_rotation({8.0 * kDegree, 1.0 * kDegree});
+  for (int trial = 0; trial < 5; ++trial) {
+    const RelativePose T = unlevel(scene.planar_motion(), L);
+    expect_close(one_ac_consensus(street(scene, T), L, kFocal, {}), T, trial);
+  }
+}
+
+TEST(OneAcConsensus, ReportsAStandingCamera) {
+  SceneGenerator scene(24);
+  std::vector<AffineCorrespondence> acs(100);
+  for (auto& ac : acs) {
+    ac.x1 = scene.image_point();
+    ac.x2 = ac.x1 + Eigen::Vector2d(scene.normal(0.1 / kFocal), scene.normal(0.1 / kFocal));
+  }
+  const ConsensusResult result = one_ac_consensus(acs, kLevel, kFocal, {});
+  EXPECT_EQ(result.status, PoseStatus::kNoMotion);
+  EXPECT_EQ(result.pose.t.norm(), 0.0);
+  EXPECT_TRUE(result.pose.R.isIdentity());
+  EXPECT_GT(result.inlier_count, 90U);
+}
+
+TEST(OneAcConsensus, ReportsARockingCameraAsRotationWithoutTranslation) {
+  SceneGenerator scene(29);
+  const RelativePose T{pitch_rotation(0.15 * kDegree), Eigen::Vector3d::Zero()};
+  std::vector<AffineCorrespondence> acs;
+  for (int i = 0; i < 100; ++i) {
+    acs.push_back(scene.with_noise(scene.on_plane(T, scene.any_plane()), 0.15 / kFocal, 0.01));
+    if (i % 10 == 0) acs.back().x2 = scene.image_point();  // traffic
+  }
+  const ConsensusResult result = one_ac_consensus(acs, kLevel, kFocal, {});
+  EXPECT_EQ(result.status, PoseStatus::kNoMotion);
+  EXPECT_EQ(result.pose.t.norm(), 0.0);
+  EXPECT_LT(rotation_error(result.pose.R, T.R), 0.01 * kDegree);
+}
+
+TEST(OneAcConsensus, RefusesTooFewCorrespondencesAndNoise) {
+  EXPECT_EQ(one_ac_consensus({}, kLevel, kFocal, {}).status, PoseStatus::kTooFew);
+  SceneGenerator scene(25);
+  std::vector<AffineCorrespondence> acs(40);
+  for (auto& ac : acs) ac = {scene.image_point(), scene.image_point(), Eigen::Matrix2d::Identity()};
+  ConsensusOptions strict;
+  strict.min_inliers = 30;
+  const ConsensusResult result = one_ac_consensus(acs, kLevel, kFocal, strict);
+  EXPECT_EQ(result.status, PoseStatus::kTooFew);
+  EXPECT_EQ(result.inliers.size(), acs.size());
+}
+
+TEST(OneAcConsensus, GivesTheSameBitsEachTime) {
+  SceneGenerator scene(26);
+  const auto acs = street(scene, scene.planar_motion());
+  const ConsensusResult a = one_ac_consensus(acs, kLevel, kFocal, {});
+  const ConsensusResult b = one_ac_consensus(acs, kLevel, kFocal, {});
+  EXPECT_TRUE(a.pose.R == b.pose.R && a.pose.t == b.pose.t);
+  EXPECT_EQ(a.inliers, b.inliers);
+}
+
+TEST(OneAcConsensus, SurvivesCorrespondencesThatAreNotFinite) {
+  SceneGenerator scene(27);
+  const RelativePose T = scene.planar_motion();
+  auto acs = street(scene, T);
+  acs[5].A(0, 0) = std::numeric_limits<double>::quiet_NaN();
+  acs[7].x2.x() = std::numeric_limits<double>::infinity();
+  acs[9].x1.y() = std::numeric_limits<double>::quiet_NaN();
+  const ConsensusResult result = one_ac_consensus(acs, kLevel, kFocal, {});
+  expect_close(result, T, 0);
+  EXPECT_FALSE(result.inliers[7]);
+  EXPECT_FALSE(result.inliers[9]);
+}
+
+TEST(ConsensusOptions, NameFieldValueAndBound) {
+  ConsensusOptions options;
+  options.threshold_px = -2.0;
+  try {
+    options.validate();
+    FAIL() << "must throw";
+  } catch (const std::invalid_argument& error) {
+    EXPECT_NE(std::string(error.what()).find("consensus.threshold_px = -2"), std::string::npos);
+  }
+}
+
+TEST(PitchSweep, GoesOutFromZeroBothWays) {
+  const std::vector<double> expected{0.0, 0.3, -0.3, 0.6, -0.6};
+  const std::vector<double> pitches = pitch_sweep(0.6, 0.3);
+  ASSERT_EQ(pitches.size(), expected.size());
+  for (std::size_t i = 0; i < expected.size(); ++i) EXPECT_DOUBLE_EQ(pitches[i], expected[i]);
+  EXPECT_EQ(pitch_sweep(0.0, 0.3).size(), 1U);
+}
+
+TEST(PlanarHypotheses, ContainTheTruthForAKnownPitch) {
+  SceneGenerator scene(28);
+  const double pitch = 1.2 * kDegree;
+  const Eigen::Matrix3d L = leveling_rotation({5.0 * kDegree, 0.0});
+  // Levelled: X2 = Rx(−θ) Ry X1 + Rx(−θ) t, so that Rx(θ) makes it planar.
+  RelativePose levelled = scene.planar_motion();
+  levelled = {pitch_rotation(-pitch) * levelled.R, pitch_rotation(-pitch) * levelled.t};
+  const RelativePose T = unlevel(levelled, L);
+  std::vector<AffineCorrespondence> acs{scene.on_plane(T, scene.any_plane())};
+  double best = 1.0;
+  planar_hypotheses(acs, L, pitch, {false, true}, [&](const RelativePose& pose) {
+    best = std::min(best, rotation_error(pose.R, T.R) + normal_error(pose.t, T.t));
+  });
+  EXPECT_LT(best, 1e-8);
+}
+
+}  // namespace
+}  // namespace oneac

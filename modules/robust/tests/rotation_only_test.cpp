@@ -1,0 +1,52 @@
+#include "oneac/robust/rotation_only.h"
+
+#include "oneac/geometry/angular_errors.h"
+#include "oneac/test_support/scenes.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace oneac {
+namespace {
+
+constexpr double kThreshold = 1.0 / 700.0;
+
+std::vector<AffineCorrespondence> rotated_points(SceneGenerator& scene, const Eigen::Matrix3d& R) {
+  std::vector<AffineCorrespondence> acs;
+  for (int i = 0; i < 100; ++i) {
+    acs.push_back(scene.on_plane({R, Eigen::Vector3d::Zero()}, scene.any_plane()));
+  }
+  return acs;
+}
+
+TEST(FitRotation, RecoversTurnsOfAFewDegrees) {
+  SceneGenerator scene(71);
+  for (int trial = 0; trial < 20; ++trial) {
+    const Eigen::Vector3d w(scene.uniform(-0.03, 0.03), scene.uniform(-0.05, 0.05),
+                            scene.uniform(-0.02, 0.02));
+    const Eigen::Matrix3d R = rotation_from_vector(w);
+    EXPECT_LT(rotation_error(fit_rotation(rotated_points(scene, R), kThreshold), R), 1e-6);
+  }
+}
+
+TEST(FitRotation, IsNotMovedByOutliers) {
+  SceneGenerator scene(72);
+  const Eigen::Matrix3d R = pitch_rotation(0.01);
+  auto acs = rotated_points(scene, R);
+  for (std::size_t i = 0; i < acs.size(); i += 5) acs[i].x2 = scene.image_point();
+  EXPECT_LT(rotation_error(fit_rotation(acs, kThreshold), R), 1e-4);
+}
+
+TEST(RotationTransferErrors, AreZeroForTheTruthAndInfiniteBehindTheCamera) {
+  SceneGenerator scene(73);
+  const Eigen::Matrix3d R = pitch_rotation(0.02);
+  for (double error : rotation_transfer_errors(R, rotated_points(scene, R))) {
+    EXPECT_LT(error, 1e-12);
+  }
+  const std::vector<AffineCorrespondence> one(1);
+  EXPECT_TRUE(std::isinf(rotation_transfer_errors(pitch_rotation(3.0), one)[0]));
+}
+
+}  // namespace
+}  // namespace oneac
