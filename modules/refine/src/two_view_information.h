@@ -1,0 +1,29 @@
+#pragma once
+
+#include "oneac/refine/epipolar_terms.h"
+
+#include <Eigen/Core>
+
+#include <vector>
+
+namespace oneac {
+
+/// What the residuals of one pair are made of. Borrows; lives within one call.
+struct TwoViewTerms {
+  const std::vector<AffineCorrespondence>& acs;
+  const std::vector<bool>& with_point;   ///< these contribute a point term
+  const std::vector<bool>& with_affine;  ///< these contribute an affine term
+  CorrespondenceNoise noise;
+  double loss_sigmas;
+};
+
+/// Information of (w, v) at a minimum, R ← exp([w]×) R, t ← t + v, |t| = 1: M V⁻¹ M, the inverse of
+/// the covariance of an M-estimator, with M the curvature of the cost (Gauss–Newton part) and V the
+/// sum of the squared gradients of its terms. It follows the scatter that the residuals have, not
+/// the one the options assume, and near points may scatter more than far ones. Rank five; zero when
+/// a direction is not observed.
+/// Source: Huber, Robust Statistics, section 6.3 (the "sandwich").
+[[nodiscard]] Eigen::Matrix<double, 6, 6> two_view_information(const TwoViewTerms& terms,
+                                                               const RelativePose& pose);
+
+}  // namespace oneac

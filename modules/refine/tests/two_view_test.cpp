@@ -1,0 +1,221 @@
+#include "oneac/refine/two_view.h"
+
+#include "refine_scenes.h"
+
+#include "oneac/geometry/angular_errors.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+namespace oneac {
+namespace {
+
+using test::expect_same_pose;
+using test::kDegree;
+using test::kFocal;
+using test::refine;
+
+RefineOptions with_affinities() {
+  RefineOptions options;
+  options.affine_terms_below = std::numeric_limits<int>::max();
+  return options;
+}
+
+RefineOptions points_alone() {
+  RefineOptions options;
+  options.affine_terms_below = 0;
+  return options;
+}
+
+TEST(RefineTwoView, ReachesTheTruthOfExactData) {
+  SceneGenerator generator(11);
+  for (const RefineOptions& options : {points_alone(), with_affinities()}) {
+    for (int trial = 0; trial < 20; ++trial) {
+      SCOPED_TRACE(trial);
+      const auto scene = test::street(generator, 100, {});
+      const RefineResult result =
+          refine(scene, test::perturbed(generator, scene.truth, 0.05, 0.5), options);
+      ASSERT_TRUE(result.usable()) << to_string(result.status);
+      EXPECT_LT(rotation_error(result.pose.R, scene.truth.R), 1e-7);
+      EXPECT_LT(direction_error(result.pose.t, scene.truth.t), 1e-6);
+    }
+  }
+}
+
+TEST(RefineTwoView, IsBetterThanItsStartOnNoisyData) {
+  SceneGenerator generator(12);
+  for (int trial = 0; trial < 50; ++trial) {
+    SCOPED_TRACE(trial);
+    const auto scene = test::street(generator, 200, {0.2, 0.05});
+    const RelativePose start = test::perturbed(generator, scene.truth, 0.1, 1.0);
+    const RefineResult result = refine(scene, start);
+    ASSERT_TRUE(result.usable()) << to_string(result.status);
+    EXPECT_LT(result.final_cost, result.initial_cost);
+    EXPECT_LT(rotation_error(result.pose.R, scene.truth.R), rotation_error(start.R, scene.truth.R));
+    EXPECT_LT(rotation_error(result.pose.R, scene.truth.R), 0.04 * kDegree);
+    EXPECT_LT(direction_error(result.pose.t, scene.truth.t), 0.4 * kDegree);
+  }
+}
+
+TEST(RefineTwoView, NeverRaisesItsCost) {
+  SceneGenerator generator(13);
+  for (int trial = 0; trial < 50; ++trial) {
+    const auto scene = test::street(generator, 30, {5.0, 0.5});  // far from what it expects
+    const RelativePose start = test::perturbed(generator, scene.truth, 5.0, 40.0);
+    const RefineResult result = refine(scene, start, with_affinities());
+    EXPECT_LE(result.final_cost, result.initial_cost) << trial;
+    EXPECT_TRUE(result.pose.is_finite()) << trial;
+  }
+}
+
+TEST(RefineTwoView, AffinitiesHelpWhenInliersAreFew) {
+  SceneGenerator generator(14);
+  double with = 0.0;
+  double without = 0.0;
+  RefineOptions precise = with_affinities();
+  precise.affine_noise = 0.005;
+  for (int trial = 0; trial < 100; ++trial) {
+    const auto scene = test::street(generator, 10, {0.5, 0.005});
+    const RelativePose start = test::perturbed(generator, scene.truth, 0.02, 0.2);
+    with += direction_error(refine(scene, start, precise).pose.t, scene.truth.t);
+    without += direction_error(refine(scene, start, points_alone()).pose.t, scene.truth.t);
+  }
+  EXPECT_LT(with, 0.9 * without);
+}
+
+TEST(RefineTwoView, UsesAffinitiesBelowTheGivenNumberOfInliers) {
+  SceneGenerator generator(15);
+  const auto scene = test::street(generator, 40, {0.2, 0.05});
+  RefineOptions options;
+  options.affine_terms_below = 41;
+  EXPECT_TRUE(refine(scene, scene.truth, options).affine_used);
+  options.affine_terms_below = 40;
+  const RefineResult points = refine(scene, scene.truth, options);
+  EXPECT_FALSE(points.affine_used);
+  EXPECT_GT(points.affine_count, 30U);  // the flags are there all the same
+  expect_same_pose(points.pose, refine(scene, scene.truth, points_alone()).pose);
+}
+
+TEST(RefineTwoView, GateThrowsOutWrongAffinities) {
+  SceneGenerator generator(16);
+  auto scene = test::street(generator, 60, {0.2, 0.02});
+  Eigen::Matrix2d turn;
+  turn << 0.0, -1.0, 1.0, 0.0;  // neighbourhoods matched a quarter turn off
+  for (std::size_t i = 0; i < 20; ++i) scene.acs[i].A = turn * scene.acs[i].A;
+  const RefineResult result = refine(scene, scene.truth, with_affinities());
+  ASSERT_EQ(result.affine_consistent.size(), scene.acs.size());
+  std::size_t right = 0;
+  for (std::size_t i = 0; i < scene.acs.size(); ++i) {
+    if (i < 20) {
+      EXPECT_FALSE(result.affine_consistent[i]) << i;
+    } else {
+      right += result.affine_consistent[i] ? 1U : 0U;
+    }
+  }
+  EXPECT_EQ(right, 40U);
+  EXPECT_EQ(result.affine_count, right);
+}
+
+TEST(RefineTwoView, LooksAtInliersAlone) {
+  SceneGenerator generator(17);
+  auto scene = test::street(generator, 40, {0.2, 0.05});
+  const RelativePose start = test::perturbed(generator, scene.truth, 0.05, 0.5);
+  const RefineResult clean = refine(scene, start);
+  std::vector<bool> inliers(scene.acs.size(), true);
+  scene.acs.push_back({{0.1, 0.2}, {-0.3, 0.4}, Eigen::Matrix2d::Identity()});
+  scene.acs.push_back({{std::nan(""), 0.0}, {0.0, 0.0}, Eigen::Matrix2d::Identity()});
+  inliers.resize(scene.acs.size(), false);
+  const RefineResult result = refine_two_view(scene.acs, inliers, start, kFocal, {});
+  expect_same_pose(result.pose, clean.pose);
+  EXPECT_FALSE(result.affine_consistent.back());
+}
+
+TEST(RefineTwoView, KeepsTheLengthOfTheTranslation) {
+  SceneGenerator generator(18);
+  const auto scene = test::street(generator, 60, {0.2, 0.05});
+  const RelativePose unit = test::perturbed(generator, scene.truth, 0.05, 0.5);
+  const RelativePose metric{unit.R, 3.7 * unit.t};
+  const RefineResult result = refine(scene, metric);
+  ASSERT_TRUE(result.usable());
+  EXPECT_NEAR(result.pose.t.norm(), 3.7, 1e-12);
+  EXPECT_LT(direction_error(result.pose.t, refine(scene, unit).pose.t), 1e-9);
+}
+
+TEST(RefineTwoView, SurvivesASinglePlane) {
+  SceneGenerator generator(19);
+  for (int trial = 0; trial < 20; ++trial) {
+    SCOPED_TRACE(trial);
+    test::TwoViewScene scene;
+    scene.truth = generator.planar_motion();
+    scene.truth.t.normalize();
+    const Plane ground = generator.ground();
+    for (int i = 0; i < 60; ++i) {
+      scene.acs.push_back(
+          test::disturbed(generator, generator.on_plane(scene.truth, ground), {0.2, 0.05}));
+    }
+    const RelativePose start = test::perturbed(generator, scene.truth, 0.05, 0.5);
+    const RefineResult result = refine(scene, start, with_affinities());
+    ASSERT_TRUE(result.usable()) << to_string(result.status);
+    EXPECT_TRUE(result.information.allFinite());
+    EXPECT_LT(rotation_error(result.pose.R, scene.truth.R), 0.5 * kDegree);
+  }
+}
+
+TEST(RefineTwoView, SurvivesPureRotation) {
+  SceneGenerator generator(20);
+  const RelativePose turn{rotation_from_vector({0.0, 0.05, 0.0}), Eigen::Vector3d::Zero()};
+  test::TwoViewScene scene;
+  for (int i = 0; i < 60; ++i) {
+    scene.acs.push_back(
+        test::disturbed(generator, test::seen_somewhere(generator, turn), {0.2, 0.05}));
+  }
+  const RefineResult result = refine(scene, {turn.R, Eigen::Vector3d::UnitZ()});
+  ASSERT_TRUE(result.usable()) << to_string(result.status);
+  EXPECT_LT(rotation_error(result.pose.R, turn.R), 0.2 * kDegree);
+  EXPECT_TRUE(result.information.allFinite());
+}
+
+TEST(RefineTwoView, GivesTheSameBitsEachTime) {
+  SceneGenerator generator(21);
+  const auto scene = test::street(generator, 45, {0.3, 0.05});
+  const RelativePose start = test::perturbed(generator, scene.truth, 0.1, 1.0);
+  const RefineResult first = refine(scene, start);
+  const RefineResult second = refine(scene, start);
+  expect_same_pose(first.pose, second.pose);
+  EXPECT_EQ(first.final_cost, second.final_cost);
+  EXPECT_EQ(first.information, second.information);
+}
+
+/// Mean of eᵀ Λ e over 100 scenes, e the error of the pose and Λ its information.
+double mean_normalised_error(const test::Noise& noise, const RefineOptions& options) {
+  SceneGenerator generator(22);
+  double sum = 0.0;
+  constexpr int kTrials = 100;
+  for (int trial = 0; trial < kTrials; ++trial) {
+    const auto scene = test::street(generator, 400, noise);
+    const RefineResult result = refine(scene, scene.truth, options);
+    EXPECT_LT((result.information.rightCols<3>() * result.pose.t).norm(),
+              1e-9 * result.information.norm());
+    const Eigen::Matrix3d dR = scene.truth.R * result.pose.R.transpose();
+    Eigen::Matrix<double, 6, 1> error;
+    error << 0.5 * (dR(2, 1) - dR(1, 2)), 0.5 * (dR(0, 2) - dR(2, 0)), 0.5 * (dR(1, 0) - dR(0, 1)),
+        scene.truth.t - result.pose.t;
+    sum += error.dot(result.information * error);
+  }
+  return sum / kTrials;
+}
+
+TEST(RefineTwoView, InformationFollowsTheScatter) {
+  // Chi-squared with five degrees of freedom: a mean of 100 strays by 0.3 (1σ).
+  constexpr double kTolerance = 1.5;
+  EXPECT_NEAR(mean_normalised_error({0.2, 0.05}, points_alone()), 5.0, kTolerance);
+  EXPECT_NEAR(mean_normalised_error({0.2, 0.05}, with_affinities()), 5.0, kTolerance);
+  RefineOptions wrong_noise = points_alone();  // half of what the points have
+  wrong_noise.loss_sigmas = 4.0;
+  EXPECT_NEAR(mean_normalised_error({0.4, 0.05}, wrong_noise), 5.0, kTolerance);
+}
+
+}  // namespace
+}  // namespace oneac
