@@ -1,0 +1,54 @@
+#pragma once
+
+#include "oneac/mrpt_compat/rtti.h"
+#include "oneac/robust/one_ac_consensus.h"
+#include "oneac/solvers/span.h"
+
+#include <mrpt/system/COutputLogger.h>
+
+#include <string>
+#include <vector>
+
+namespace mrpt::containers {
+class yaml;
+}
+
+namespace oneac {
+
+/// What an initialiser is given for one pair of images.
+struct InitialiserInput {
+  AcSpan acs;  ///< normalised, of the camera as it is mounted (tilted)
+  Eigen::Matrix3d R_level_cam = Eigen::Matrix3d::Identity();  ///< removes the camera's tilt
+  double focal_px = 1.0;                                      ///< [px] of one normalised unit
+};
+
+/// What it answers: status, pose in the camera frame (|t| = 1, or 0 when the camera stood),
+/// inliers.
+using InitialiserResult = ConsensusResult;
+
+/// A relative-pose method as an MRPT class: made by name through MRPT's class factory, configured
+/// by YAML, logging through COutputLogger. Derive from it, declare with DEFINE_MRPT_OBJECT and
+/// register with mrpt::rtti::registerClass(CLASS_ID(…)) to add a method of your own.
+class RelativePoseInitialiser : public mrpt::rtti::CObject, public mrpt::system::COutputLogger {
+  ONEAC_DEFINE_VIRTUAL_MRPT_OBJECT(RelativePoseInitialiser)
+
+ public:
+  RelativePoseInitialiser() : COutputLogger("oneac.initialiser") {}
+
+  /// The short name for command lines and tables, e.g. "1ac_pooled".
+  [[nodiscard]] virtual std::string name() const = 0;
+  /// Takes the keys of ConsensusOptions (or of the derived class) from a YAML map.
+  /// @throws InputError naming key, value and bound
+  virtual void configure(const mrpt::containers::yaml& parameters) = 0;
+  /// Estimates one pair. Deterministic; does not change the object, so it is thread-safe.
+  [[nodiscard]] virtual InitialiserResult estimate(const InitialiserInput& input) const = 0;
+};
+
+/// Short names of all registered initialisers, sorted.
+[[nodiscard]] std::vector<std::string> initialiser_names();
+
+/// Makes an initialiser from its short name ("1ac_pooled") or class name.
+/// @throws InputError listing the names that exist
+[[nodiscard]] RelativePoseInitialiser::Ptr make_initialiser(const std::string& name);
+
+}  // namespace oneac
