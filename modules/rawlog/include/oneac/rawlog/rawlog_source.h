@@ -1,0 +1,81 @@
+#pragma once
+
+#include "oneac/geometry/camera_frame.h"
+#include "oneac/rawlog/vehicle_reference.h"
+
+#include <cstddef>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace oneac {
+
+/// What to read from a rawlog.
+struct SourceOptions {
+  std::filesystem::path log;
+  std::filesystem::path images_dir;  ///< folder of external images; empty: searched, see docs
+  std::string camera;  ///< "left", "right", a sensor label, or "" when the log leaves no choice
+  std::string calibration;  ///< FILE[:SECTION] that overrides the log's; "" keeps the log's
+  std::string mount_convention = "auto";  ///< "auto", "optical" or "x_forward" sensor poses
+  std::size_t first = 0;                  ///< first image of the camera to use
+  std::size_t count = 0;                  ///< images to use at most; 0: all
+  std::size_t every = 1;                  ///< use every K-th image from `first` on; ≥ 1
+
+  /// @throws InputError naming flag, value and bound
+  void validate() const;
+};
+
+/// What a pass over the log met, complete once next() has returned nothing.
+struct SourceReport {
+  std::size_t images_in_log = 0;   ///< of the selected camera, as far as read
+  std::size_t images_missing = 0;  ///< external files that were not found (among those selected)
+  std::string first_missing;       ///< name of the first of them
+  std::string damage;  ///< one line (file, record, fault, cure) when the log ends badly, else ""
+  VehicleReference reference;  ///< GPS and IMU seen on the way
+};
+
+/// One selected image, not decoded yet. Cheap to move between threads.
+struct FrameTicket;
+
+/// Streams the images of one camera out of a rawlog in log order, lazily: memory does not grow with
+/// the log. Plain, gzip and zstd files; action/sensory-frame and observation logs, mixed too.
+///
+/// A damaged log gives what is readable before the damage; `report().damage` then says where.
+class RawlogSource {
+ public:
+  /// Opens the log and selects the camera.
+  /// @throws InputError (no such file, empty, not a rawlog, no images, no such camera, no images in
+  ///         the images dir, unreadable calibration); labels and sections that exist are listed
+  explicit RawlogSource(const SourceOptions& options);
+  ~RawlogSource();
+  RawlogSource(RawlogSource&&) noexcept;
+  RawlogSource& operator=(RawlogSource&&) noexcept;
+
+  /// Reads on to the next selected image that exists. Not thread-safe.
+  [[nodiscard]] std::optional<FrameTicket> next();
+  /// Decodes, converts to grey, undistorts when distorted (map computed once). Thread-safe.
+  /// @throws InputError naming the image when it cannot be decoded or has another size than the
+  /// calibration
+  [[nodiscard]] CameraFrame load(const FrameTicket& ticket) const;
+  /// Reads on (without images) up to two seconds past the last image, so that the reference covers
+  /// the drive; then `report` is complete. Call when done.
+  void finish();
+  [[nodiscard]] const SourceReport& report() const;
+  /// Share of the file read so far, 0 … 1, for a progress bar.
+  [[nodiscard]] double progress() const;
+
+ private:
+  class Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+struct FrameTicket {
+  std::size_t index = 0;
+  double time_s = 0.0;
+  std::string name;
+  std::shared_ptr<const void> payload;  ///< internal: the observation or the path of its image
+};
+
+}  // namespace oneac

@@ -1,0 +1,37 @@
+#pragma once
+
+#include <Eigen/Core>
+
+#include <optional>
+#include <vector>
+
+namespace oneac {
+
+/// One GPS epoch: GGA and RMC of the same second merged. Fields that were not in the log are empty.
+struct GpsFix {
+  double time_s = 0.0;                          ///< Unix time, as stamped in the log [s]
+  std::optional<Eigen::Vector3d> position_enu;  ///< east, north, up from the first fix [m]
+  std::optional<double> speed;                  ///< over ground [m/s]
+  std::optional<double> course;                 ///< direction of travel, clockwise from north [rad]
+};
+
+/// One IMU sample in the sensor's axes.
+struct ImuSample {
+  double time_s = 0.0;                          ///< Unix time [s]
+  std::optional<Eigen::Vector3d> acceleration;  ///< [m/s²]
+  std::optional<Eigen::Vector3d> angular_rate;  ///< about x, y, z [rad/s]
+};
+
+/// What the other sensors say about the vehicle's motion: a reference, not an input.
+struct VehicleReference {
+  std::vector<GpsFix> gps;     ///< in time order, NaN-free
+  std::vector<ImuSample> imu;  ///< in time order
+
+  /// Change of course (RMC) from t0 to t1, counter-clockwise positive, unwrapped [rad]; empty
+  /// without two courses that cover the interval to within 1.5 s.
+  [[nodiscard]] std::optional<double> heading_change(double t0, double t1) const;
+  /// Speed integrated over [t0, t1] by the trapezium rule [m]; empty when speeds do not cover it.
+  [[nodiscard]] std::optional<double> distance(double t0, double t1) const;
+};
+
+}  // namespace oneac

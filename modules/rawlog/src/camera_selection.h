@@ -1,0 +1,63 @@
+#pragma once
+
+#include "camera_view.h"
+#include "external_images.h"
+#include "log_reader.h"
+
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <set>
+#include <string>
+#include <vector>
+
+namespace oneac {
+
+/// Whether the pixels of a view can be had: stored in the log, or in a file that exists.
+[[nodiscard]] bool is_present(const CameraView& view, ExternalImages& images);
+
+/// A camera of the log, as its first image describes it.
+struct CameraCandidate {
+  std::string name;       ///< CameraView::name()
+  std::string label;      ///< of the sensor
+  std::string side_name;  ///< CameraView::side_name()
+  CameraView::Side side = CameraView::Side::mono;
+  bool matches = false;  ///< the user's --camera
+  bool present = false;  ///< an image of it has been found
+  std::size_t images = 0;
+  std::size_t first_record = 0;
+  mrpt::img::TCamera calibration;
+  Eigen::Isometry3d T_vehicle_sensor = Eigen::Isometry3d::Identity();
+};
+
+/// Decides which camera of a log is meant, from the beginning of the log.
+///
+/// Without a wish the log must leave no choice: one sensor with images; of a stereo sensor the left
+/// camera, or the right one when only its images exist. Cameras that show up later than
+/// kProbeSeconds after the first image are not considered.
+class CameraProbe {
+ public:
+  static constexpr double kProbeSeconds = 2.0;
+
+  CameraProbe(std::string wanted, ExternalImages& images);
+  void add(const LogRecord& record);
+  /// No further record can change the outcome.
+  [[nodiscard]] bool decided() const;
+  /// @throws InputError when no camera is meant, several are, or none of its images exists
+  [[nodiscard]] const CameraCandidate& choice(const std::filesystem::path& log) const;
+  [[nodiscard]] bool has_images() const { return !candidates_.empty(); }
+
+ private:
+  void add_view(const CameraView& view, const LogRecord& record);
+  [[nodiscard]] std::vector<const CameraCandidate*> meant() const;
+  [[nodiscard]] std::string names() const;
+
+  std::string wanted_;
+  ExternalImages& images_;
+  std::map<std::string, CameraCandidate> candidates_;
+  std::set<std::string> sensors_;
+  std::optional<double> first_time_;
+  double last_time_ = 0.0;
+};
+
+}  // namespace oneac

@@ -1,0 +1,71 @@
+#include "image_decoding.h"
+
+#include "log_maker.h"
+
+#include "oneac/test_support/temporary_folder.h"
+
+#include <gtest/gtest.h>
+
+#include <opencv2/imgcodecs.hpp>
+#include <opencv2/imgproc.hpp>
+
+#include <fstream>
+#include <iterator>
+
+namespace oneac {
+namespace {
+
+class ImageDecoding : public ::testing::Test {
+ protected:
+  std::filesystem::path save(const std::string& name, const cv::Mat& pixels) {
+    cv::imwrite((folder_.path() / name).string(), pixels);
+    return folder_.path() / name;
+  }
+  static std::string fault(const std::filesystem::path& file) {
+    return test::input_error([&] { static_cast<void>(decode_grey_file(file)); });
+  }
+  TemporaryFolder folder_;
+};
+
+bool same(const cv::Mat& a, const cv::Mat& b) {
+  return a.type() == b.type() && a.size() == b.size() && cv::norm(a, b, cv::NORM_INF) <= 1.0;
+}
+
+TEST_F(ImageDecoding, ConvertsEveryKindToTheSameGrey) {
+  const cv::Mat grey = test::ramp(40);
+  cv::Mat colour;
+  cv::Mat with_alpha;
+  cv::Mat wide;
+  cv::cvtColor(grey, colour, cv::COLOR_GRAY2BGR);
+  cv::cvtColor(grey, with_alpha, cv::COLOR_GRAY2BGRA);
+  grey.convertTo(wide, CV_16U, 256.0);
+  EXPECT_TRUE(same(decode_grey_file(save("grey.png", grey)), grey));
+  EXPECT_TRUE(same(decode_grey_file(save("colour.png", colour)), grey));
+  EXPECT_TRUE(same(decode_grey_file(save("alpha.png", with_alpha)), grey));
+  EXPECT_TRUE(same(decode_grey_file(save("wide.png", wide)), grey));
+  EXPECT_TRUE(same(to_grey(colour, "c"), grey));
+  EXPECT_TRUE(same(to_grey(with_alpha, "a"), grey));
+  EXPECT_TRUE(same(to_grey(wide, "w"), grey));
+}
+
+TEST_F(ImageDecoding, RefusesACutJpegInsteadOfFillingItWithGrey) {
+  const auto file = save("cut.jpg", test::ramp(0));
+  EXPECT_EQ(fault(file), "");
+  std::ifstream in(file, std::ios::binary);
+  std::string bytes((std::istreambuf_iterator<char>(in)), std::istreambuf_iterator<char>());
+  bytes.resize(bytes.size() - 20);
+  test::write_bytes(file, bytes);
+  EXPECT_NE(fault(file).find("cut.jpg: the image ends early"), std::string::npos);
+}
+
+TEST_F(ImageDecoding, NamesTheFileThatIsNoImage) {
+  test::write_bytes(folder_.path() / "text.png", "not an image");
+  test::write_bytes(folder_.path() / "empty.png", "");
+  EXPECT_NE(fault(folder_.path() / "text.png").find("text.png"), std::string::npos);
+  EXPECT_NE(fault(folder_.path() / "empty.png").find("is empty"), std::string::npos);
+  EXPECT_NE(fault(folder_.path() / "none.png").find("cannot be opened"), std::string::npos);
+  EXPECT_THROW(static_cast<void>(to_grey(cv::Mat(4, 4, CV_32F), "float")), InputError);
+}
+
+}  // namespace
+}  // namespace oneac

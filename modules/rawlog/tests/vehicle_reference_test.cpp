@@ -1,0 +1,65 @@
+#include "oneac/rawlog/vehicle_reference.h"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+
+namespace oneac {
+namespace {
+
+constexpr double kDegree = M_PI / 180.0;
+
+VehicleReference drive(const std::vector<double>& courses_deg, const std::vector<double>& speeds) {
+  VehicleReference reference;
+  for (std::size_t i = 0; i < courses_deg.size(); ++i) {
+    reference.gps.push_back(
+        {100.0 + static_cast<double>(i), std::nullopt, speeds[i], courses_deg[i] * kDegree});
+  }
+  return reference;
+}
+
+TEST(VehicleReference, TurningLeftIsPositiveAcrossNorth) {
+  const auto reference = drive({20, 10, 0, 350, 340}, {5, 5, 5, 5, 5});
+  ASSERT_TRUE(reference.heading_change(100, 104));
+  EXPECT_NEAR(*reference.heading_change(100, 104), 40 * kDegree, 1e-12);
+}
+
+TEST(VehicleReference, InterpolatesTheCourseAtBothEnds) {
+  const auto reference = drive({0, 10, 20, 30}, {5, 5, 5, 5});
+  EXPECT_NEAR(*reference.heading_change(100.5, 102.25), -17.5 * kDegree, 1e-12);
+}
+
+TEST(VehicleReference, IgnoresTheCourseOfAStandingVehicle) {
+  const auto reference = drive({10, 170, 300, 20}, {5, 0, 0.1, 5});
+  EXPECT_NEAR(*reference.heading_change(100, 103), -10 * kDegree, 1e-12);
+}
+
+TEST(VehicleReference, SaysNothingWithoutCover) {
+  const auto reference = drive({0, 10, 20, 30}, {5, 5, 5, 5});
+  EXPECT_FALSE(reference.heading_change(98.0, 102.0));
+  EXPECT_TRUE(reference.heading_change(98.6, 102.0));
+  EXPECT_FALSE(reference.heading_change(100.0, 105.0));
+  EXPECT_FALSE(reference.distance(100.0, 105.0));
+  EXPECT_FALSE(reference.heading_change(103.0, 100.0));
+  EXPECT_FALSE(reference.distance(std::numeric_limits<double>::quiet_NaN(), 102.0));
+  EXPECT_FALSE(VehicleReference().heading_change(0.0, 1.0));
+  EXPECT_FALSE(drive({10}, {5}).heading_change(100.0, 100.5));
+}
+
+TEST(VehicleReference, DoesNotBridgeALongGap) {
+  auto reference = drive({0, 0, 0, 0}, {5, 5, 5, 5});
+  reference.gps[2].time_s += 20.0;
+  reference.gps[3].time_s += 20.0;
+  EXPECT_FALSE(reference.distance(100.0, 123.0));
+  EXPECT_FALSE(reference.heading_change(100.0, 123.0));
+}
+
+TEST(VehicleReference, IntegratesSpeedByTheTrapeziumRule) {
+  const auto reference = drive({0, 0, 0}, {2, 4, 8});
+  EXPECT_NEAR(*reference.distance(100, 102), 3 + 6, 1e-12);
+  EXPECT_NEAR(*reference.distance(100.5, 101.5), 0.5 * 3.5 + 0.5 * 5.0, 1e-12);
+  EXPECT_NEAR(*reference.distance(100.2, 100.4), 0.2 * 2.6, 1e-12);
+}
+
+}  // namespace
+}  // namespace oneac
