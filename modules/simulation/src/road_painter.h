@@ -1,0 +1,28 @@
+#pragma once
+
+#include "route.h"
+#include "texture.h"
+
+#include <cstdint>
+
+namespace oneac::simulation {
+
+/// Markings and repairs are stored around this value, to be added to the asphalt.
+inline constexpr double kNeutral = 128.0;
+
+/// What is special to one street: its rectangle in the leg's frame, painted along x and y.
+struct RoadDecal {
+  Eigen::Vector2d low;  ///< corner in the leg's frame [m]
+  Eigen::Vector2d high;
+  Texture texture;  ///< u along x, v along y, from `low`; differences from kNeutral
+};
+
+/// Asphalt: stones, speckle, stains and cracks of all sizes; 25.6 m before it repeats.
+[[nodiscard]] Texture paint_asphalt(std::uint64_t seed);
+/// Slow changes of tone, 37 m before they repeat: laid askew over the asphalt, so that no two
+/// places of the road look alike.
+[[nodiscard]] Texture paint_road_tone(std::uint64_t seed);
+/// Lines, zebra crossing, patches, manholes, cracks, paving slabs of one street.
+[[nodiscard]] RoadDecal paint_decal(const Leg& leg, std::uint64_t seed);
+
+}  // namespace oneac::simulation

@@ -1,0 +1,70 @@
+#pragma once
+
+#include "oneac/simulation/simulation_options.h"
+
+#include <Eigen/Core>
+
+#include <cstddef>
+#include <vector>
+
+namespace oneac::simulation {
+
+/// A straight street. Its frame: x along the direction of travel, y to the left, origin where it
+/// starts; streets run along the axes of the world.
+struct Leg {
+  Eigen::Vector2d start = Eigen::Vector2d::Zero();
+  int quadrant = 0;  ///< heading in quarter turns
+  double length_m = 0.0;
+
+  [[nodiscard]] Eigen::Vector2d to_world(const Eigen::Vector2d& p) const;
+  [[nodiscard]] Eigen::Vector2d to_leg(const Eigen::Vector2d& p_world) const;
+};
+
+/// The vehicle's planar motion at one instant.
+struct PlanarState {
+  Eigen::Vector2d position = Eigen::Vector2d::Zero();  ///< [m]
+  double heading = 0.0;                                ///< from X, positive to the left [rad]
+  double curvature = 0.0;                              ///< positive to the left [1/m]
+  double speed = 0.0;                                  ///< [m/s]
+  double acceleration = 0.0;                           ///< along the path [m/s²]
+};
+
+/// Where the vehicle drives and when: straights and quarter-circle bends with transition curves,
+/// left and right in turn (so that the route never meets itself), speed limited by cornering,
+/// acceleration, braking and stops.
+class Route {
+ public:
+  /// Long enough for a drive of the given duration and some way beyond.
+  Route(const SimulationOptions& options, double duration_s);
+
+  [[nodiscard]] PlanarState at(double time_s) const;
+  [[nodiscard]] const std::vector<Leg>& legs() const { return legs_; }
+  /// Points of the path, about a metre apart.
+  [[nodiscard]] std::vector<Eigen::Vector2d> path() const;
+
+ private:
+  struct Node {  ///< one step of the path; curvature and acceleration hold until the next
+    Eigen::Vector2d position;
+    double heading;
+    double curvature;
+    double speed_limit;
+    double wait_s;  ///< standing time here
+    double speed;
+    double time_s;  ///< of arrival
+  };
+
+  void append(int steps, double curvature_from, double curvature_to);
+  void append_straight(int steps, int quadrant);
+  void append_bend(int quadrant, int turn);
+  void lay(const SimulationOptions& options, double duration_s);
+  void set_speeds(const SimulationOptions& options);
+  void set_times();
+
+  std::vector<Leg> legs_;
+  std::vector<Node> nodes_;
+  Eigen::Vector2d end_ = Eigen::Vector2d::Zero();
+  double end_heading_ = 0.0;
+  double cruise_mps_ = 0.0;
+};
+
+}  // namespace oneac::simulation

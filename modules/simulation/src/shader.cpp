@@ -1,0 +1,125 @@
+#include "shader.h"
+
+#include "facade_painter.h"
+#include "random_numbers.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace oneac::simulation {
+namespace {
+
+constexpr float kToneCos = 0.7986F;  // the slow tone lies 37° askew over the asphalt
+constexpr float kToneSin = 0.6018F;
+
+/// Light from the south-west and above: corners of buildings stand out.
+float illumination(const Face& face, bool upper) {
+  switch (face.axis) {
+    case 0:
+      return upper ? 0.80F : 1.08F;
+    case 1:
+      return upper ? 0.68F : 1.0F;
+    default:
+      return 1.15F;
+  }
+}
+
+Footprint rotated(const Footprint& patch, const Eigen::Matrix2f& R) {
+  return {R * patch.centre, R * patch.right, R * patch.down};
+}
+
+/// The patch of the face's plane that a pixel sees, in its two in-plane axes.
+Footprint footprint(const RayFan& fan, const Face& face, double u, double v) {
+  const Eigen::Vector3d ray = fan.ray(u, v);
+  const double plane = face.offset - fan.centre[face.axis];
+  const double w = ray[face.axis] / plane;
+  const int a = face.first();
+  const int b = face.second();
+  const Eigen::Vector2d centre(fan.centre[a], fan.centre[b]);
+  const Eigen::Vector2d r(ray[a], ray[b]);
+  const auto step = [&](const Eigen::Vector3d& d) -> Eigen::Vector2f {  // quotient rule on r / w
+    return ((Eigen::Vector2d(d[a], d[b]) - r * (d[face.axis] / plane / w)) / w).cast<float>();
+  };
+  return {(centre + r / w).cast<float>(), step(fan.du), step(fan.dv)};
+}
+
+Eigen::Matrix2f leg_from_world(const Leg& leg) {
+  const Eigen::Vector2d x = leg.to_world({1.0, 0.0}) - leg.start;
+  Eigen::Matrix2f R;
+  R << static_cast<float>(x.x()), static_cast<float>(x.y()), static_cast<float>(-x.y()),
+      static_cast<float>(x.x());
+  return R;
+}
+
+}  // namespace
+
+Shader::Shader(const Route& route, const std::vector<Box>& boxes, std::uint64_t seed)
+    : legs_(route.legs()),
+      boxes_(boxes),
+      asphalt_(paint_asphalt(seed)),
+      tone_(paint_road_tone(seed)) {
+  const auto own_seed = [seed](std::size_t kind, std::size_t i) {
+    return mix_bits(seed ^ (kind << 32U)) + i;
+  };
+  for (std::size_t i = 0; i < legs_.size(); ++i) {
+    decals_.push_back(paint_decal(legs_[i], own_seed(1, i)));
+  }
+  for (std::size_t i = 0; i < boxes_.size(); ++i) {
+    const bool building = boxes_[i].kind == Box::Kind::kBuilding;
+    box_textures_.push_back(building ? paint_facade(boxes_[i], own_seed(2, i))
+                                     : paint_obstacle(boxes_[i], own_seed(3, i)));
+  }
+}
+
+float Shader::face(const RayFan& fan, const Face& face, double u, double v) const {
+  const Footprint patch = footprint(fan, face, u, v);
+  return face.box < 0 ? ground(patch) : wall(face, patch);
+}
+
+float Shader::ground(const Footprint& patch) const {
+  Eigen::Matrix2f askew;
+  askew << kToneCos, -kToneSin, kToneSin, kToneCos;
+  const auto neutral = static_cast<float>(kNeutral);
+  float grey = asphalt_.sample(patch) + tone_.sample(rotated(patch, askew)) - neutral;
+  for (std::size_t i = 0; i < legs_.size(); ++i) {
+    const Eigen::Vector2d p = legs_[i].to_leg(patch.centre.cast<double>());
+    const RoadDecal& decal = decals_[i];
+    if ((p.array() < decal.low.array()).any() || (p.array() > decal.high.array()).any()) continue;
+    Footprint local = rotated(patch, leg_from_world(legs_[i]));
+    local.centre = (p - decal.low).cast<float>();
+    grey += decal.texture.sample(local) - neutral;
+  }
+  return grey;
+}
+
+float Shader::wall(const Face& face, const Footprint& patch) const {
+  const auto index = static_cast<std::size_t>(face.box);
+  const Box& box = boxes_[index];
+  const Texture& texture = box_textures_[index];
+  const float light = illumination(face, face.offset == box.high[face.axis]);
+  Footprint local = patch;
+  if (face.axis == 2) {
+    local.centre -= box.low.head<2>().cast<float>();
+    return light * texture.sample(local);
+  }
+  // In-plane axes: (y, z) on faces across x, (z, x) on faces across y. The latter are mirrored, so
+  // that the two visible sides of a corner do not look alike.
+  const auto arrange = [&](const Eigen::Vector2f& p) -> Eigen::Vector2f {
+    return face.axis == 0 ? Eigen::Vector2f(p.x(), -p.y()) : Eigen::Vector2f(-p.y(), -p.x());
+  };
+  const Eigen::Vector2f corner =
+      face.axis == 0
+          ? Eigen::Vector2f(static_cast<float>(box.low.y()), static_cast<float>(box.high.z()))
+          : Eigen::Vector2f(static_cast<float>(box.high.z()), static_cast<float>(box.high.x()));
+  local.centre = arrange(patch.centre - corner);
+  local.right = arrange(patch.right);
+  local.down = arrange(patch.down);
+  return light * texture.sample(local);
+}
+
+float Shader::sky(const Eigen::Vector3d& ray) {
+  const auto rise = static_cast<float>(ray.z() / ray.norm());
+  return 228.0F - 40.0F * std::clamp(rise, 0.0F, 1.0F);
+}
+
+}  // namespace oneac::simulation

@@ -1,0 +1,41 @@
+#include "oneac/simulation/simulation_options.h"
+
+#include <cmath>
+#include <sstream>
+#include <stdexcept>
+
+namespace oneac {
+namespace {
+
+void require_within(const char* field, double value, double low, double high) {
+  if (std::isfinite(value) && value >= low && value <= high) return;
+  std::ostringstream message;
+  message << "SimulationOptions." << field << " = " << value << ", must be within " << low
+          << " ... " << high;
+  throw std::invalid_argument(message.str());
+}
+
+}  // namespace
+
+void SimulationOptions::validate() const {
+  // The street is built in memory before the first frame, about 2 MB for every second of driving.
+  require_within("frames", frames, 1, 10000);
+  require_within("width_px", width_px, 16, 4096);
+  require_within("height_px", height_px, 16, 4096);
+  require_within("focal_px", focal_px, 10.0, 20000.0);
+  require_within("fps", fps, 0.5, 200.0);
+  require_within("baseline_m", baseline_m, 0.001, 2.0);
+  require_within("image_noise", image_noise, 0.0, 50.0);
+  require_within("camera_height_m", camera_height_m, 0.3, 3.5);
+  require_within("camera_forward_m", camera_forward_m, -3.0, 3.0);
+  require_within("camera_tilt_deg", camera_tilt_deg, -45.0, 45.0);
+  require_within("speed_mps", speed_mps, 0.5, 20.0);
+  require_within("acceleration_mps2", acceleration_mps2, 0.1, 8.0);
+  require_within("braking_mps2", braking_mps2, 0.1, 8.0);
+  require_within("stop_s", stop_s, 0.0, 600.0);
+  require_within("suspension_pitch_deg", suspension_pitch_deg, 0.0, 5.0);
+  require_within("suspension_roll_deg", suspension_roll_deg, 0.0, 5.0);
+  require_within("gps_noise_m", gps_noise_m, 0.0, 100.0);
+}
+
+}  // namespace oneac

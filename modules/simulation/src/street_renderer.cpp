@@ -1,0 +1,101 @@
+#include "street_renderer.h"
+
+#include "random_numbers.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace oneac::simulation {
+namespace {
+
+class PixelPainter {
+ public:
+  PixelPainter(const Shader& shader, const RayFan& fan, const std::vector<Face>& faces,
+               const FaceRasteriser& visible)
+      : shader_(shader), fan_(fan), faces_(faces), visible_(visible) {}
+
+  [[nodiscard]] float pixel(int u, int v) const {
+    const std::array<std::uint16_t, 4> ids{id(u, v, 0), id(u, v, 1), id(u, v, 2), id(u, v, 3)};
+    if (ids[0] == ids[1] && ids[0] == ids[2] && ids[0] == ids[3]) return look(ids[0], u, v);
+    float sum = 0.0F;
+    for (int k = 0; k < 4; ++k) {
+      sum += look(ids[static_cast<std::size_t>(k)], FaceRasteriser::pixel(2 * u + k % 2),
+                  FaceRasteriser::pixel(2 * v + k / 2));
+    }
+    return 0.25F * sum;
+  }
+
+ private:
+  [[nodiscard]] std::uint16_t id(int u, int v, int k) const {
+    return visible_.face(2 * u + k % 2, 2 * v + k / 2);
+  }
+  [[nodiscard]] float look(std::uint16_t id, double u, double v) const {
+    if (id == FaceRasteriser::kSky) return Shader::sky(fan_.ray(u, v));
+    return shader_.face(fan_, faces_[id], u, v);
+  }
+
+  const Shader& shader_;
+  const RayFan& fan_;
+  const std::vector<Face>& faces_;
+  const FaceRasteriser& visible_;
+};
+
+static_assert(FaceRasteriser::kPerSide == 2, "PixelPainter reads 2×2 samples per pixel");
+
+bool contains(const Face& face, const Eigen::Vector3d& X) {
+  const Eigen::Vector2d p(X[face.first()], X[face.second()]);
+  return (p.array() >= face.low.array()).all() && (p.array() <= face.high.array()).all();
+}
+
+}  // namespace
+
+StreetRenderer::StreetRenderer(const PinholeCamera& camera, const Route& route, std::uint64_t seed)
+    : camera_(camera), boxes_(lay_out_street(route, seed)), shader_(route, boxes_, seed) {}
+
+std::vector<float> StreetRenderer::render(const Eigen::Isometry3d& T_world_cam) const {
+  const RayFan fan(camera_, T_world_cam);
+  const std::vector<Face> faces = faces_towards(boxes_, fan.centre);
+  const FaceRasteriser visible(fan, faces, camera_.width, camera_.height);
+  const PixelPainter painter(shader_, fan, faces, visible);
+  std::vector<float> grey;
+  grey.reserve(static_cast<std::size_t>(camera_.width) * static_cast<std::size_t>(camera_.height));
+  for (int v = 0; v < camera_.height; ++v) {
+    for (int u = 0; u < camera_.width; ++u) grey.push_back(painter.pixel(u, v));
+  }
+  return grey;
+}
+
+std::optional<Eigen::Vector3d> StreetRenderer::surface_point(const Eigen::Isometry3d& T_world_cam,
+                                                             const Eigen::Vector2d& u_px) const {
+  const RayFan fan(camera_, T_world_cam);
+  const Eigen::Vector3d ray = fan.ray(u_px.x(), u_px.y());
+  double nearest = 1.0 / kFarthest_m;
+  std::optional<Eigen::Vector3d> hit;
+  for (const Face& face : faces_towards(boxes_, fan.centre)) {
+    const double w = face.inverse_depth(fan, ray);
+    if (!(w > nearest)) continue;
+    const Eigen::Vector3d X = fan.centre + ray / w;
+    if (!contains(face, X)) continue;
+    nearest = w;
+    hit = X;
+  }
+  return hit;
+}
+
+GreyImage expose(const std::vector<float>& grey, int width, int height, double sigma,
+                 std::uint64_t key) {
+  GreyImage image(width, height);
+  const std::uint64_t stream = mix_bits(key);
+  std::size_t i = 0;
+  for (int v = 0; v < height; ++v) {
+    std::uint8_t* row = image.row(v);
+    for (int u = 0; u < width; ++u, ++i) {
+      const double noise = sigma > 0.0 ? sigma * normal_from_bits(mix_bits(stream + i)) : 0.0;
+      row[u] = static_cast<std::uint8_t>(std::clamp(grey[i] + noise + 0.5, 0.0, 255.0));
+    }
+  }
+  return image;
+}
+
+}  // namespace oneac::simulation

@@ -1,0 +1,218 @@
+#include "oneac/simulation/street_simulator.h"
+
+#include "random_numbers.h"
+#include "street_renderer.h"
+#include "suspension.h"
+
+#include "oneac/geometry/camera_frame.h"
+#include "oneac/geometry/leveling.h"
+
+#include <cmath>
+#include <stdexcept>
+#include <string>
+
+namespace oneac {
+
+using simulation::BodyAttitude;
+using simulation::mix_bits;
+using simulation::PlanarState;
+using simulation::RandomNumbers;
+using simulation::Route;
+using simulation::StreetRenderer;
+using simulation::Suspension;
+
+namespace {
+
+constexpr double kDegree = 0.017453292519943295;
+constexpr double kGravity = 9.80665;          // [m/s²]
+constexpr double kGpsRate = 1.0;              // [Hz] Málaga's receiver
+constexpr double kImuRate = 100.0;            // [Hz] Málaga's unit
+constexpr double kGpsSpeedNoise = 0.05;       // [m/s] Doppler
+constexpr double kGpsCourseNoise = 0.3;       // [deg]
+constexpr double kAccelerometerNoise = 0.05;  // [m/s²]
+constexpr double kGyroNoise = 0.002;          // [rad/s]
+
+double duration(const SimulationOptions& options) {
+  return (options.frames - 1) / options.fps;
+}
+
+PinholeCamera camera_of(const SimulationOptions& options) {
+  PinholeCamera camera;
+  camera.width = options.width_px;
+  camera.height = options.height_px;
+  camera.fx = camera.fy = options.focal_px;
+  camera.cx = 0.5 * (options.width_px - 1);
+  camera.cy = 0.5 * (options.height_px - 1);
+  return camera;
+}
+
+Eigen::Isometry3d mount_of(const SimulationOptions& options) {
+  Eigen::Isometry3d T = CameraFrame::forward_looking_mount();
+  T.linear() = T.linear() * leveling_rotation({options.camera_tilt_deg * kDegree, 0.0});
+  T.translation() << options.camera_forward_m, 0.0, options.camera_height_m;
+  return T;
+}
+
+Eigen::Matrix3d body_rotation(double heading, const BodyAttitude& body) {
+  return (Eigen::AngleAxisd(heading, Eigen::Vector3d::UnitZ()) *
+          Eigen::AngleAxisd(body.pitch, Eigen::Vector3d::UnitY()) *
+          Eigen::AngleAxisd(body.roll, Eigen::Vector3d::UnitX()))
+      .toRotationMatrix();
+}
+
+Eigen::Vector3d three_normals(RandomNumbers& random) {
+  const double x = random.normal();
+  const double y = random.normal();
+  return {x, y, random.normal()};
+}
+
+double course_deg(double heading) {
+  const double course = std::fmod(90.0 - heading / kDegree, 360.0);
+  return course < 0.0 ? course + 360.0 : course;
+}
+
+const SimulationOptions& checked(const SimulationOptions& options) {
+  options.validate();
+  return options;
+}
+
+}  // namespace
+
+struct StreetSimulator::Impl {
+  explicit Impl(const SimulationOptions& chosen)
+      : options(checked(chosen)),
+        camera(camera_of(options)),
+        T_vehicle_cam(mount_of(options)),
+        route(options, duration(options)),
+        suspension(options, route, duration(options)),
+        renderer(camera, route, options.seed) {}
+
+  [[nodiscard]] SimulatedState state_at(double time_s) const;
+  [[nodiscard]] GreyImage image(std::size_t i, const Eigen::Isometry3d& T_world_cam,
+                                std::uint64_t side) const;
+  [[nodiscard]] SimulatedGps gps_at(double time_s, RandomNumbers& random) const;
+  [[nodiscard]] SimulatedImu imu_at(double time_s, RandomNumbers& random) const;
+
+  SimulationOptions options;
+  PinholeCamera camera;
+  Eigen::Isometry3d T_vehicle_cam;
+  Route route;
+  Suspension suspension;
+  StreetRenderer renderer;
+};
+
+SimulatedState StreetSimulator::Impl::state_at(double time_s) const {
+  const PlanarState planar = route.at(time_s);
+  SimulatedState state;
+  state.time_s = time_s;
+  state.T_world_vehicle.linear() = body_rotation(planar.heading, suspension.at(time_s));
+  state.T_world_vehicle.translation() << planar.position, 0.0;
+  state.T_world_cam = state.T_world_vehicle * T_vehicle_cam;
+  state.speed_mps = planar.speed;
+  state.yaw_rate_radps = planar.curvature * planar.speed;
+  return state;
+}
+
+GreyImage StreetSimulator::Impl::image(std::size_t i, const Eigen::Isometry3d& T_world_cam,
+                                       std::uint64_t side) const {
+  const std::uint64_t key = mix_bits(options.seed) + 2 * static_cast<std::uint64_t>(i) + side;
+  return simulation::expose(renderer.render(T_world_cam), camera.width, camera.height,
+                            options.image_noise, key);
+}
+
+SimulatedGps StreetSimulator::Impl::gps_at(double time_s, RandomNumbers& random) const {
+  const PlanarState planar = route.at(time_s);
+  SimulatedGps fix;
+  fix.time_s = time_s;
+  fix.position_m << planar.position, 0.0;
+  fix.position_m += options.gps_noise_m * three_normals(random);
+  fix.speed_mps = std::abs(planar.speed + kGpsSpeedNoise * random.normal());
+  fix.course_deg = course_deg(planar.heading + kGpsCourseNoise * kDegree * random.normal());
+  return fix;
+}
+
+SimulatedImu StreetSimulator::Impl::imu_at(double time_s, RandomNumbers& random) const {
+  const PlanarState planar = route.at(time_s);
+  const BodyAttitude body = suspension.at(time_s);
+  const Eigen::Matrix3d R_level_body = body_rotation(0.0, body);
+  const double cornering = planar.curvature * planar.speed * planar.speed;
+  const Eigen::Vector3d force(planar.acceleration, cornering, kGravity);
+  const Eigen::Vector3d yaw(0.0, 0.0, planar.curvature * planar.speed);
+  SimulatedImu reading;
+  reading.time_s = time_s;
+  reading.specific_force_mps2 = R_level_body.transpose() * force;
+  // Pitch and roll are below a degree: their rates add to first order.
+  reading.angular_rate_radps =
+      R_level_body.transpose() * yaw + Eigen::Vector3d(body.roll_rate, body.pitch_rate, 0.0);
+  reading.specific_force_mps2 += kAccelerometerNoise * three_normals(random);
+  reading.angular_rate_radps += kGyroNoise * three_normals(random);
+  return reading;
+}
+
+StreetSimulator::StreetSimulator(const SimulationOptions& options)
+    : impl_(std::make_unique<const Impl>(options)) {}
+StreetSimulator::~StreetSimulator() = default;
+StreetSimulator::StreetSimulator(StreetSimulator&&) noexcept = default;
+StreetSimulator& StreetSimulator::operator=(StreetSimulator&&) noexcept = default;
+
+const SimulationOptions& StreetSimulator::options() const {
+  return impl_->options;
+}
+std::size_t StreetSimulator::size() const {
+  return static_cast<std::size_t>(impl_->options.frames);
+}
+PinholeCamera StreetSimulator::camera() const {
+  return impl_->camera;
+}
+Eigen::Isometry3d StreetSimulator::T_vehicle_cam() const {
+  return impl_->T_vehicle_cam;
+}
+
+SimulatedState StreetSimulator::state(std::size_t i) const {
+  if (i >= size()) {
+    throw std::out_of_range("StreetSimulator: frame " + std::to_string(i) + " of " +
+                            std::to_string(size()));
+  }
+  return impl_->state_at(static_cast<double>(i) / impl_->options.fps);
+}
+
+SimulatedFrame StreetSimulator::frame(std::size_t i) const {
+  SimulatedFrame frame;
+  frame.index = i;
+  frame.state = state(i);
+  frame.left = impl_->image(i, frame.state.T_world_cam, 0);
+  if (impl_->options.stereo) {
+    const Eigen::Translation3d to_the_right(impl_->options.baseline_m, 0.0, 0.0);
+    frame.right = impl_->image(i, frame.state.T_world_cam * to_the_right, 1);
+  }
+  return frame;
+}
+
+GreyImage StreetSimulator::render(const Eigen::Isometry3d& T_world_cam) const {
+  const PinholeCamera& camera = impl_->camera;
+  return simulation::expose(impl_->renderer.render(T_world_cam), camera.width, camera.height, 0.0,
+                            0);
+}
+
+std::optional<Eigen::Vector3d> StreetSimulator::surface_point(const Eigen::Isometry3d& T_world_cam,
+                                                              const Eigen::Vector2d& u_px) const {
+  return impl_->renderer.surface_point(T_world_cam, u_px);
+}
+
+std::vector<SimulatedGps> StreetSimulator::gps() const {
+  RandomNumbers random(impl_->options.seed ^ 0x677073ULL);
+  std::vector<SimulatedGps> fixes;
+  const auto last = static_cast<int>(std::ceil(duration(impl_->options) * kGpsRate - 1e-9));
+  for (int i = 0; i <= last; ++i) fixes.push_back(impl_->gps_at(i / kGpsRate, random));
+  return fixes;
+}
+
+std::vector<SimulatedImu> StreetSimulator::imu() const {
+  RandomNumbers random(impl_->options.seed ^ 0x696d75ULL);
+  std::vector<SimulatedImu> readings;
+  const auto last = static_cast<int>(duration(impl_->options) * kImuRate + 1e-9);
+  for (int i = 0; i <= last; ++i) readings.push_back(impl_->imu_at(i / kImuRate, random));
+  return readings;
+}
+
+}  // namespace oneac
