@@ -1,0 +1,52 @@
+#pragma once
+
+#include "oneac/geometry/relative_pose.h"
+
+#include <cstddef>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace oneac {
+
+/// One pair of processed frames: a row of relative_poses.csv.
+struct RelativePoseRow {
+  std::size_t index1 = 0;  ///< image of the selected camera, counted from 0 over the whole log
+  std::size_t index2 = 0;
+  double t1 = 0.0;      ///< Unix time of the first image [s]
+  double t2 = 0.0;      ///< Unix time of the second image [s]
+  RelativePose T_2_1;   ///< X2 = R X1 + t, camera optical frame
+  bool metric = false;  ///< t in metres; otherwise of unit length, or zero
+  int inliers = 0;
+  int acs = 0;         ///< affine correspondences found
+  std::string status;  ///< one word, e.g. "ok"
+};
+
+/// What one pair cost: a row of timings.csv, thread CPU time of each stage [ms].
+struct TimingRow {
+  std::size_t index1 = 0;
+  std::size_t index2 = 0;
+  double decode_ms = 0.0;
+  double features_ms = 0.0;
+  double estimate_ms = 0.0;
+  double refine_ms = 0.0;
+};
+
+/// Reads a relative_poses.csv; columns are found by name, in any order, others are passed over.
+/// @throws InputError naming file, line and cure: not readable, a column is missing, a row with
+/// too few fields, not a finite number, not a unit quaternion, metric neither 0 nor 1
+[[nodiscard]] std::vector<RelativePoseRow> read_relative_poses(const std::filesystem::path& path);
+
+/// True when the first line of the file names the columns of a relative_poses.csv; false also when
+/// it cannot be read.
+[[nodiscard]] bool looks_like_relative_poses(const std::filesystem::path& path);
+
+/// The text of a relative_poses.csv; poses and times read back exactly (rotations to rounding).
+/// @throws std::invalid_argument when a number is not finite or a status has a comma or line break
+[[nodiscard]] std::string format_relative_poses(const std::vector<RelativePoseRow>& rows);
+
+/// The text of a timings.csv, three decimals.
+/// @throws std::invalid_argument when a number is not finite
+[[nodiscard]] std::string format_timings(const std::vector<TimingRow>& rows);
+
+}  // namespace oneac

@@ -1,0 +1,183 @@
+#include "oneac/evaluation/relative_poses_io.h"
+
+#include "text_io.h"
+
+#include "oneac/base/error.h"
+
+#include <Eigen/Geometry>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <fstream>
+#include <optional>
+#include <stdexcept>
+#include <string_view>
+
+namespace oneac {
+namespace {
+
+constexpr std::array<std::string_view, 15> kColumns{"index1", "index2", "t1",      "t2",  "qw",
+                                                    "qx",     "qy",     "qz",      "tx",  "ty",
+                                                    "tz",     "metric", "inliers", "acs", "status"};
+constexpr double kUnitTolerance = 1e-3;  // four digits of a quaternion are enough to be one
+
+std::string header() {
+  std::string line;
+  for (const auto column : kColumns) line += (line.empty() ? "" : ",") + std::string(column);
+  return line;
+}
+
+using ColumnPlaces = std::array<std::size_t, kColumns.size()>;
+
+ColumnPlaces find_columns(const TextLine& line, const std::string& file) {
+  const auto names = split_at_commas(line.text);
+  ColumnPlaces places{};
+  for (std::size_t c = 0; c < kColumns.size(); ++c) {
+    const auto found = std::find(names.begin(), names.end(), kColumns[c]);
+    if (found == names.end()) {
+      throw InputError(where_in(file, line.number), "no column '" + std::string(kColumns[c]) + "'",
+                       "the first line must be " + header());
+    }
+    places[c] = static_cast<std::size_t>(found - names.begin());
+  }
+  return places;
+}
+
+/// The fields of one line, found by the name of their column.
+class Fields {
+ public:
+  Fields(const TextLine& line, const ColumnPlaces& places, const std::string& file)
+      : fields_(split_at_commas(line.text)), places_(places), where_(where_in(file, line.number)) {
+    const std::size_t needed = *std::max_element(places.begin(), places.end()) + 1;
+    if (fields_.size() >= needed) return;
+    throw InputError(where_,
+                     std::to_string(fields_.size()) + " fields, needs " + std::to_string(needed),
+                     "write the file again, or remove the line when it was cut");
+  }
+
+  [[nodiscard]] std::string_view text(std::string_view column) const {
+    const auto place = std::find(kColumns.begin(), kColumns.end(), column) - kColumns.begin();
+    return fields_[places_[static_cast<std::size_t>(place)]];
+  }
+  [[nodiscard]] double real(std::string_view column) const {
+    const auto value = parse_finite(text(column));
+    if (!value) fail(column, "a finite number below 1e15");
+    return *value;
+  }
+  template <class Integer>
+  [[nodiscard]] Integer integer(std::string_view column) const {
+    const auto value = parse_integer<Integer>(text(column));
+    if (!value) fail(column, "a whole number");
+    return *value;
+  }
+  [[noreturn]] void fail(std::string_view column, const std::string& must_be) const {
+    throw InputError(
+        where_, std::string(column) + " is '" + std::string(text(column)) + "', must be " + must_be,
+        "correct or remove the line");
+  }
+
+ private:
+  std::vector<std::string_view> fields_;
+  const ColumnPlaces& places_;
+  std::string where_;
+};
+
+RelativePose parse_pose(const Fields& fields) {
+  const Eigen::Quaterniond q(fields.real("qw"), fields.real("qx"), fields.real("qy"),
+                             fields.real("qz"));
+  if (!(std::abs(q.norm() - 1.0) < kUnitTolerance)) {
+    fields.fail("qw", "the first entry of a unit quaternion qw,qx,qy,qz");
+  }
+  return {q.normalized().toRotationMatrix(),
+          {fields.real("tx"), fields.real("ty"), fields.real("tz")}};
+}
+
+bool parse_flag(const Fields& fields, std::string_view column) {
+  const auto text = fields.text(column);
+  if (text != "0" && text != "1") fields.fail(column, "0 or 1");
+  return text == "1";
+}
+
+RelativePoseRow parse_row(const Fields& fields) {
+  RelativePoseRow row;
+  row.index1 = fields.integer<std::size_t>("index1");
+  row.index2 = fields.integer<std::size_t>("index2");
+  row.t1 = fields.real("t1");
+  row.t2 = fields.real("t2");
+  row.T_2_1 = parse_pose(fields);
+  row.metric = parse_flag(fields, "metric");
+  row.inliers = fields.integer<int>("inliers");
+  row.acs = fields.integer<int>("acs");
+  row.status = std::string(fields.text("status"));
+  return row;
+}
+
+void require_writable(const RelativePoseRow& row) {
+  const std::string where = "RelativePoseRow of images " + std::to_string(row.index1) + " and " +
+                            std::to_string(row.index2);
+  if (!row.T_2_1.is_finite() || !std::isfinite(row.t1) || !std::isfinite(row.t2)) {
+    throw std::invalid_argument(where + ": T_2_1, t1 and t2 must be finite");
+  }
+  if (row.status.find_first_of(",\r\n") != std::string::npos) {
+    throw std::invalid_argument(where + ": status must not have a comma or a line break");
+  }
+}
+
+std::string row_text(const RelativePoseRow& row) {
+  Eigen::Quaterniond q(row.T_2_1.R);
+  if (q.w() < 0.0) q.coeffs() = -q.coeffs();
+  const Eigen::Vector3d& t = row.T_2_1.t;
+  std::string line = std::to_string(row.index1) + ',' + std::to_string(row.index2) + ',' +
+                     time_text(row.t1) + ',' + time_text(row.t2);
+  for (double v : {q.w(), q.x(), q.y(), q.z(), t.x(), t.y(), t.z()}) line += ',' + exact_text(v);
+  return line + (row.metric ? ",1," : ",0,") + std::to_string(row.inliers) + ',' +
+         std::to_string(row.acs) + ',' + row.status + '\n';
+}
+
+}  // namespace
+
+std::vector<RelativePoseRow> read_relative_poses(const std::filesystem::path& path) {
+  const std::string text = read_text(path);
+  const auto lines = data_lines(text);
+  if (lines.empty()) throw InputError(path.string(), "is blank", "write or copy it again");
+  const ColumnPlaces places = find_columns(lines.front(), path.string());
+  std::vector<RelativePoseRow> rows;
+  for (std::size_t k = 1; k < lines.size(); ++k) {
+    rows.push_back(parse_row(Fields(lines[k], places, path.string())));
+  }
+  return rows;
+}
+
+bool looks_like_relative_poses(const std::filesystem::path& path) {
+  std::ifstream stream(path);
+  std::string line;
+  if (!std::getline(stream, line)) return false;
+  const auto names = split_at_commas(line);
+  return std::find(names.begin(), names.end(), kColumns.front()) != names.end();
+}
+
+std::string format_relative_poses(const std::vector<RelativePoseRow>& rows) {
+  std::string text = header() + '\n';
+  for (const RelativePoseRow& row : rows) {
+    require_writable(row);
+    text += row_text(row);
+  }
+  return text;
+}
+
+std::string format_timings(const std::vector<TimingRow>& rows) {
+  constexpr int kDecimals = 3;  // microseconds; thread clocks are no finer in practice
+  std::string text = "index1,index2,ms_decode,ms_features,ms_estimate,ms_refine\n";
+  for (const TimingRow& row : rows) {
+    text += std::to_string(row.index1) + ',' + std::to_string(row.index2);
+    for (double ms : {row.decode_ms, row.features_ms, row.estimate_ms, row.refine_ms}) {
+      if (!std::isfinite(ms)) throw std::invalid_argument("TimingRow: times must be finite");
+      text += ',' + fixed_text(ms, kDecimals);
+    }
+    text += '\n';
+  }
+  return text;
+}
+
+}  // namespace oneac

@@ -1,0 +1,119 @@
+#include "text_io.h"
+
+#include "oneac/base/error.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <fstream>
+#include <iterator>
+#include <system_error>
+
+namespace oneac {
+namespace {
+
+constexpr std::string_view kBlanks = " \t\r\v\f";
+// The longest double without an exponent has 309 digits before the point.
+constexpr std::size_t kLongestNumber = 512;
+constexpr std::size_t kTimeDecimals = 6;
+constexpr double kNumberBound = 1e15;  // beyond any time or length, far below overflow
+
+std::string_view trimmed(std::string_view text) {
+  const std::size_t first = text.find_first_not_of(kBlanks);
+  if (first == std::string_view::npos) return {};
+  return text.substr(first, text.find_last_not_of(kBlanks) - first + 1);
+}
+
+template <class... Format>
+std::string number_text(double value, Format... format) {
+  std::array<char, kLongestNumber> buffer{};
+  char* const end = buffer.data() + buffer.size();
+  const auto result = std::to_chars(buffer.data(), end, value + 0.0, format...);  // -0 + 0 = 0
+  return {buffer.data(), result.ptr};
+}
+
+}  // namespace
+
+std::string where_in(const std::string& file, std::size_t line) {
+  return file + ": line " + std::to_string(line);
+}
+
+std::string read_text(const std::filesystem::path& path) {
+  std::error_code ignored;
+  if (!std::filesystem::exists(path, ignored)) {
+    throw InputError(path.string(), "no such file", "check the path");
+  }
+  if (std::filesystem::is_directory(path, ignored)) {
+    throw InputError(path.string(), "is a folder", "name a file in it");
+  }
+  std::ifstream stream(path, std::ios::binary);
+  std::string text{std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
+  if (!stream.is_open() || stream.bad()) {
+    throw InputError(path.string(), "cannot be read", "check its permissions");
+  }
+  if (text.empty()) throw InputError(path.string(), "is empty", "write or copy it again");
+  return text;
+}
+
+std::vector<TextLine> data_lines(std::string_view text) {
+  std::vector<TextLine> lines;
+  for (std::size_t number = 1; !text.empty(); ++number) {
+    const std::size_t end = std::min(text.find('\n'), text.size());
+    const std::string_view line = trimmed(text.substr(0, end));
+    if (!line.empty() && line.front() != '#') lines.push_back({number, line});
+    text.remove_prefix(std::min(end + 1, text.size()));
+  }
+  return lines;
+}
+
+std::vector<std::string_view> split_at_blanks(std::string_view line) {
+  std::vector<std::string_view> fields;
+  while (!(line = trimmed(line)).empty()) {
+    const std::size_t end = std::min(line.find_first_of(kBlanks), line.size());
+    fields.push_back(line.substr(0, end));
+    line.remove_prefix(end);
+  }
+  return fields;
+}
+
+std::vector<std::string_view> split_at_commas(std::string_view line) {
+  std::vector<std::string_view> fields;
+  while (true) {
+    const std::size_t end = line.find(',');
+    fields.push_back(trimmed(line.substr(0, end)));
+    if (end == std::string_view::npos) return fields;
+    line.remove_prefix(end + 1);
+  }
+}
+
+std::optional<double> parse_finite(std::string_view field) {
+  if (!field.empty() && field.front() == '+') field.remove_prefix(1);  // from_chars refuses it
+  double value = 0.0;
+  const char* end = field.data() + field.size();
+  const auto result = std::from_chars(field.data(), end, value);
+  if (result.ec != std::errc() || result.ptr != end) return std::nullopt;
+  if (!(std::abs(value) < kNumberBound)) return std::nullopt;  // NaN too
+  return value;
+}
+
+std::string exact_text(double value) {
+  return number_text(value);
+}
+
+std::string time_text(double time_s) {
+  std::string text = number_text(time_s, std::chars_format::fixed);
+  const std::size_t point = text.find('.');
+  if (point == std::string::npos) return text + "." + std::string(kTimeDecimals, '0');
+  const std::size_t decimals = text.size() - point - 1;
+  if (decimals < kTimeDecimals) text.append(kTimeDecimals - decimals, '0');
+  return text;
+}
+
+std::string fixed_text(double value, int decimals) {
+  std::string text = number_text(value, std::chars_format::fixed, decimals);
+  const bool is_zero = text.find_first_not_of("-0.") == std::string::npos;
+  if (is_zero && text.front() == '-') text.erase(0, 1);
+  return text;
+}
+
+}  // namespace oneac
