@@ -1,0 +1,108 @@
+#include "commands.h"
+#include "interrupt.h"
+#include "run_drive.h"
+#include "run_options.h"
+#include "run_outputs.h"
+#include "run_summary.h"
+
+#include "oneac/base/atomic_file.h"
+#include "oneac/base/error.h"
+
+#include <CLI/CLI.hpp>
+
+#include <chrono>
+#include <filesystem>
+#include <iostream>
+#include <memory>
+
+namespace oneac::app {
+namespace {
+
+/// What the flags say; they override parameter files, which were applied before.
+struct RunFlags {
+  RunOptions options;
+  std::vector<std::string> parameter_files;
+  std::vector<std::string> settings;
+  bool print_params = false;
+  bool no_progress = false;
+  bool quiet = false;
+};
+
+/// A flag that is also a key: it is kept as a setting and applied last.
+void add_key(CLI::App* verb, const std::string& flag, const std::string& key, RunFlags& flags,
+             const std::string& help) {
+  verb->add_option_function<std::string>(
+      flag,
+      [&flags, key](const std::string& value) { flags.settings.push_back(key + "=" + value); },
+      help);
+}
+
+void fail_if_incomplete(const DriveRecord& record) {
+  if (!record.failure.empty()) throw InputError("stopped early", record.failure, "");
+  if (!record.source.damage.empty()) throw InputError("log", record.source.damage, "");
+}
+
+void write_all(const DriveRecord& record, RunOptions& options, double wall_seconds) {
+  const std::filesystem::path folder(options.output);
+  write_drive(record, folder);
+  write_file_atomically(folder / "params.yaml", options.result_parameters());
+  const RunEvaluation evaluation = evaluate_record(record, options);
+  write_file_atomically(folder / "summary.json",
+                        summary_json(record, evaluation, options, wall_seconds));
+  std::cout << summary_text(record, evaluation) << "written to " << options.output
+            << ": trajectory_camera.kitti, trajectory_camera.tum, trajectory_vehicle.tum, "
+               "relative_poses.csv, timings.csv, summary.json, params.yaml\n";
+}
+
+void run(RunFlags& flags) {
+  RunOptions& options = flags.options;
+  apply_settings(flags.parameter_files, flags.settings, options);
+  if (flags.print_params) {
+    std::cout << options.table().to_yaml(true);
+    return;
+  }
+  if (flags.no_progress) options.run.progress = false;
+  if (flags.quiet) options.run.quiet = true;
+  options.validate();
+  if (options.log.empty()) throw InputError("run", "no rawlog given", "oneac run LOG -o DIR");
+  if (options.output.empty()) throw InputError("run", "no output folder given", "add -o DIR");
+  require_writable_folder(options.output);
+  catch_interrupts();
+  const auto start = std::chrono::steady_clock::now();
+  const DriveRecord record = run_drive(options);
+  const std::chrono::duration<double> wall = std::chrono::steady_clock::now() - start;
+  if (!options.run.quiet) {
+    for (const std::string& note : notes_about(record)) std::cerr << "oneac: " << note << '\n';
+  }
+  write_all(record, options, wall.count());
+  fail_if_incomplete(record);
+}
+
+}  // namespace
+
+void add_run(CLI::App& program) {
+  auto* verb = program.add_subcommand("run", "Computes the trajectory of a camera from a rawlog");
+  auto flags = std::make_shared<RunFlags>();
+  verb->add_option("LOG", flags->options.log, "rawlog: plain, .gz or zstd");
+  verb->add_option("-o,--output", flags->options.output, "folder for the results, made if missing");
+  verb->add_option("--params", flags->parameter_files, "YAML with parameters; later files win");
+  verb->add_option("--set", flags->settings, "section.key=value, any key of params/default.yaml")
+      ->allow_extra_args(false);
+  add_key(verb, "--initialiser", "front_end.initialiser", *flags, "method of the relative pose");
+  add_key(verb, "--images-dir", "source.images_dir", *flags, "folder of the external images");
+  add_key(verb, "--camera", "source.camera", *flags, "left, right or a sensor label");
+  add_key(verb, "--calibration", "source.calibration", *flags,
+          "FILE[:SECTION] instead of the log's");
+  add_key(verb, "--first", "source.first", *flags, "first image to use, from 0");
+  add_key(verb, "--count", "source.count", *flags, "images to use at most; 0: all");
+  add_key(verb, "--every", "source.every", *flags, "use every K-th image");
+  add_key(verb, "--reference", "run.reference", *flags, "true poses, KITTI or TUM");
+  add_key(verb, "--seed", "run.seed", *flags, "seed of methods that draw random numbers");
+  add_key(verb, "--threads", "run.threads", *flags, "images prepared at once");
+  verb->add_flag("--no-progress", flags->no_progress, "no progress bar");
+  verb->add_flag("--quiet", flags->quiet, "no progress bar, notes or warnings");
+  verb->add_flag("--print-params", flags->print_params, "print all parameters as YAML and stop");
+  verb->callback([flags] { run(*flags); });
+}
+
+}  // namespace oneac::app

@@ -1,0 +1,60 @@
+#include "drive_record.h"
+
+namespace oneac::app {
+
+Trajectory DriveRecord::camera_trajectory() const {
+  Trajectory trajectory;
+  for (const FrameResult& frame : frames) {
+    trajectory.times.push_back(frame.time_s);
+    trajectory.poses.push_back(frame.T_first_cam);
+  }
+  return trajectory;
+}
+
+Trajectory DriveRecord::vehicle_trajectory() const {
+  // The log's heading of the camera with the pitch and roll that the drive confirmed.
+  const Tilt log_tilt = tilt_from_mounting(T_vehicle_cam.linear());
+  const Eigen::Matrix3d R_vehicle_level =
+      T_vehicle_cam.linear() * leveling_rotation(log_tilt).transpose();
+  Eigen::Isometry3d mount = T_vehicle_cam;
+  mount.linear() = R_vehicle_level * leveling_rotation(tilt);
+  Trajectory trajectory;
+  for (const FrameResult& frame : frames) {
+    trajectory.times.push_back(frame.time_s);
+    trajectory.poses.push_back(mount * frame.T_first_cam * mount.inverse());
+  }
+  return trajectory;
+}
+
+std::vector<RelativePoseRow> DriveRecord::relative_poses() const {
+  std::vector<RelativePoseRow> rows;
+  for (const FrameResult& frame : frames) {
+    if (!frame.step) continue;
+    const StepResult& step = *frame.step;
+    RelativePoseRow row;
+    row.index1 = step.index1;
+    row.index2 = step.index2;
+    row.t1 = step.time1;
+    row.t2 = step.time2;
+    row.T_2_1 = step.pose;
+    row.metric = step.metric;
+    row.inliers = static_cast<int>(step.inliers);
+    row.acs = static_cast<int>(step.acs);
+    row.status = to_string(step.status);
+    rows.push_back(row);
+  }
+  return rows;
+}
+
+std::vector<TimingRow> DriveRecord::timings() const {
+  std::vector<TimingRow> rows;
+  for (std::size_t i = 0; i < frames.size(); ++i) {
+    if (!frames[i].step) continue;
+    const StepResult& step = *frames[i].step;
+    rows.push_back({step.index1, step.index2, decode_ms[i], step.features_ms, step.estimate_ms,
+                    step.refine_ms});
+  }
+  return rows;
+}
+
+}  // namespace oneac::app

@@ -1,0 +1,40 @@
+#pragma once
+
+#include "oneac/evaluation/relative_poses_io.h"
+#include "oneac/evaluation/trajectory_io.h"
+#include "oneac/frontend/front_end.h"
+#include "oneac/rawlog/rawlog_source.h"
+
+#include <Eigen/Geometry>
+
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace oneac::app {
+
+/// What a run has computed so far: grows frame by frame and can be written at any time.
+struct DriveRecord {
+  std::vector<FrameResult> frames;
+  std::vector<double> decode_ms;                                           ///< one per frame
+  Eigen::Isometry3d T_vehicle_cam = CameraFrame::forward_looking_mount();  ///< as the log says
+  PinholeCamera camera;
+  Tilt given_tilt;             ///< from the log or the parameters
+  Tilt tilt;                   ///< as believed at the end
+  double camera_height = 0.0;  ///< [m] in use; 0: none
+  SourceReport source;
+  std::size_t out_of_order = 0;  ///< images left out: not later than the one before
+  bool interrupted = false;
+  std::string failure;  ///< one line when an image stopped the run early, else ""
+
+  /// Camera trajectory, first camera = identity.
+  [[nodiscard]] Trajectory camera_trajectory() const;
+  /// Vehicle trajectory (X forward, Z up), first vehicle pose = identity; the mount is the log's
+  /// with the pitch and roll of `tilt`.
+  [[nodiscard]] Trajectory vehicle_trajectory() const;
+  [[nodiscard]] std::vector<RelativePoseRow> relative_poses() const;
+  [[nodiscard]] std::vector<TimingRow> timings() const;
+};
+
+}  // namespace oneac::app

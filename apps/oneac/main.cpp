@@ -1,0 +1,37 @@
+#include "commands.h"
+
+#include "oneac/base/error.h"
+#include "oneac/base/version.h"
+
+#include <CLI/CLI.hpp>
+
+#include <exception>
+#include <iostream>
+#include <stdexcept>
+
+int main(int argc, char** argv) {
+  CLI::App program{"Where is the car going? Egomotion from one camera and a rawlog."};
+  program.set_version_flag("--version", oneac::version());
+  program.require_subcommand(1);
+  oneac::app::add_info(program);
+  oneac::app::add_run(program);
+  oneac::app::add_import(program);
+  oneac::app::add_simulate(program);
+  oneac::app::add_eval(program);
+  oneac::app::add_synth(program);
+  try {
+    program.parse(argc, argv);
+    return 0;
+  } catch (const CLI::ParseError& error) {
+    return program.exit(error) == 0 ? 0 : 2;
+  } catch (const oneac::InputError& error) {
+    std::cerr << "oneac: " << error.what() << '\n';
+    return 2;
+  } catch (const std::invalid_argument& error) {  // misuse that a flag led to
+    std::cerr << "oneac: " << error.what() << '\n';
+    return 2;
+  } catch (const std::exception& error) {
+    std::cerr << "oneac: " << error.what() << '\n';
+    return 1;
+  }
+}

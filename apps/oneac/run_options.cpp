@@ -1,0 +1,109 @@
+#include "run_options.h"
+
+#include "oneac/base/error.h"
+#include "oneac/initialisers/yaml_parameters.h"
+
+#include <stdexcept>
+
+namespace oneac::app {
+
+// Found by ParameterTable through the namespace of its argument.
+template <class Visitor>
+void describe(Visitor&& visit, SourceParameters& o) {
+  visit("camera", o.camera, "name", "left, right or a sensor label; empty: the only one");
+  visit("images_dir", o.images_dir, "path", "external images; empty: searched beside the log");
+  visit("calibration", o.calibration, "path", "FILE[:SECTION] that replaces the log's");
+  visit("mount_convention", o.mount_convention, "name", "auto, optical or x_forward sensor poses");
+  visit("first", o.first, "index", "first image to use");
+  visit("count", o.count, "count", "images to use at most; 0: all");
+  visit("every", o.every, "count", "use every K-th image");
+}
+
+template <class Visitor>
+void describe_results(Visitor&& visit, RunParameters& o) {
+  visit("reference", o.reference, "path", "true poses; empty: beside the log, else its GPS");
+  visit("seed", o.seed, "-", "of methods that draw random numbers");
+}
+
+template <class Visitor>
+void describe(Visitor&& visit, RunParameters& o) {
+  describe_results(visit, o);
+  visit("threads", o.threads, "count", "images prepared at once; changes no result");
+  visit("progress", o.progress, "bool", "progress bar on a terminal");
+  visit("quiet", o.quiet, "bool", "no notes and warnings");
+}
+
+namespace {
+
+/// RunParameters without what cannot change a result.
+struct ResultParameters {
+  RunParameters& run;
+};
+template <class Visitor>
+void describe(Visitor&& visit, ResultParameters& o) {
+  describe_results(visit, o.run);
+}
+
+}  // namespace
+
+SourceOptions SourceParameters::for_log(const std::string& log) const {
+  SourceOptions options;
+  options.log = log;
+  options.images_dir = images_dir;
+  options.camera = camera;
+  options.calibration = calibration;
+  options.mount_convention = mount_convention;
+  options.first = first;
+  options.count = count;
+  options.every = every;
+  return options;
+}
+
+ParameterTable RunOptions::table() {
+  ParameterTable table;
+  table.add("source", source);
+  table.add("front_end", front_end);
+  table.add("run", run);
+  return table;
+}
+
+std::string RunOptions::result_parameters() {
+  ResultParameters results{run};
+  ParameterTable table;
+  table.add("source", source);
+  table.add("front_end", front_end);
+  table.add("run", results);
+  return table.to_yaml(true);
+}
+
+void RunOptions::validate() const {
+  source.for_log(log).validate();
+  try {
+    front_end.validate();
+    if (run.threads < 1) {
+      throw std::invalid_argument("run.threads = " + std::to_string(run.threads) +
+                                  ", must be at least 1");
+    }
+  } catch (const std::invalid_argument& error) {
+    throw InputError("parameters", error.what(), "correct it in --params or --set");
+  }
+}
+
+void apply_settings(const std::vector<std::string>& files, const std::vector<std::string>& settings,
+                    RunOptions& options) {
+  ParameterTable table = options.table();
+  for (const std::string& file : files) apply_yaml_file(file, table);
+  for (const std::string& setting : settings) {
+    const auto equals = setting.find('=');
+    if (equals == std::string::npos) {
+      throw InputError("--set " + setting, "has no '='", "write --set section.key=value");
+    }
+    try {
+      table.set(setting.substr(0, equals), setting.substr(equals + 1));
+    } catch (const std::invalid_argument& error) {
+      throw InputError("--set " + setting, error.what(), "see params/default.yaml for all keys");
+    }
+  }
+}
+
+}  // namespace oneac::app

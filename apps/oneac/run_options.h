@@ -1,0 +1,55 @@
+#pragma once
+
+#include "oneac/base/parameter_table.h"
+#include "oneac/frontend/front_end_options.h"
+#include "oneac/rawlog/rawlog_source.h"
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+namespace oneac::app {
+
+/// Which images: SourceOptions in the types of a parameter file.
+struct SourceParameters {
+  std::string camera;
+  std::string images_dir;
+  std::string calibration;
+  std::string mount_convention = "auto";
+  std::size_t first = 0;
+  std::size_t count = 0;
+  std::size_t every = 1;
+
+  [[nodiscard]] SourceOptions for_log(const std::string& log) const;
+};
+
+/// How to run. None of threads, progress, quiet changes a result.
+struct RunParameters {
+  std::string reference;  ///< true poses; "" looks beside the log, then takes the log's GPS
+  int seed = 0;           ///< for methods that draw random numbers; the one-AC consensus does not
+  int threads = 2;        ///< images prepared at once
+  bool progress = true;
+  bool quiet = false;
+};
+
+/// Everything `oneac run` can be told, from defaults, --params, --set and flags, in this order.
+struct RunOptions {
+  std::string log;
+  std::string output;
+  SourceParameters source;
+  FrontEndOptions front_end;
+  RunParameters run;
+
+  /// All keys; borrows this object.
+  [[nodiscard]] ParameterTable table();
+  /// The effective parameters that results depend on, as YAML.
+  [[nodiscard]] std::string result_parameters();
+  /// @throws InputError naming key, value and bound
+  void validate() const;
+};
+
+/// Applies parameter files, then "key=value" settings. @throws InputError
+void apply_settings(const std::vector<std::string>& files, const std::vector<std::string>& settings,
+                    RunOptions& options);
+
+}  // namespace oneac::app

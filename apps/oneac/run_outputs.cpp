@@ -1,0 +1,48 @@
+#include "run_outputs.h"
+
+#include "oneac/base/atomic_file.h"
+
+#include <algorithm>
+
+namespace oneac::app {
+
+void write_drive(const DriveRecord& record, const std::filesystem::path& folder) {
+  const Trajectory camera = record.camera_trajectory();
+  write_file_atomically(folder / "trajectory_camera.kitti", format_kitti(camera));
+  write_file_atomically(folder / "trajectory_camera.tum", format_tum(camera));
+  write_file_atomically(folder / "trajectory_vehicle.tum", format_tum(record.vehicle_trajectory()));
+  write_file_atomically(folder / "relative_poses.csv",
+                        format_relative_poses(record.relative_poses()));
+  write_file_atomically(folder / "timings.csv", format_timings(record.timings()));
+}
+
+std::vector<std::string> notes_about(const DriveRecord& record) {
+  std::vector<std::string> notes;
+  const SourceReport& source = record.source;
+  if (source.images_missing > 0) {
+    notes.push_back(std::to_string(source.images_missing) + " of " +
+                    std::to_string(source.images_in_log) +
+                    " images of this camera are not on disk (first: " + source.first_missing +
+                    "); using those that are");
+  }
+  if (record.out_of_order > 0) {
+    notes.push_back(std::to_string(record.out_of_order) +
+                    " images do not lie after the one before in time and were left out");
+  }
+  if (!(record.camera_height > 0.0)) {
+    notes.push_back(
+        "the height of the camera is not known, so nothing is in metres; set "
+        "front_end.camera_height");
+  }
+  const auto predicted =
+      std::count_if(record.frames.begin(), record.frames.end(), [](const FrameResult& frame) {
+        return frame.step && frame.step->status == StepStatus::kPredicted;
+      });
+  if (predicted > 0) {
+    notes.push_back(std::to_string(predicted) +
+                    " steps were not carried by their images and repeat the motion before");
+  }
+  return notes;
+}
+
+}  // namespace oneac::app

@@ -1,0 +1,242 @@
+#include "run_summary.h"
+
+#include "oneac/base/version.h"
+#include "oneac/evaluation/report.h"
+
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+#include <thread>
+#include <vector>
+
+namespace oneac::app {
+namespace {
+
+using Json = nlohmann::ordered_json;
+namespace fs = std::filesystem;
+
+constexpr double kDegree = 3.14159265358979323846 / 180.0;
+
+std::string find_reference(const RunOptions& options) {
+  if (!options.run.reference.empty()) return options.run.reference;
+  const fs::path log(options.log);
+  const fs::path beside = log.parent_path() / (log.stem().string() + "_poses.txt");
+  for (const fs::path& candidate : {beside, log.parent_path() / "poses.txt"}) {
+    if (fs::is_regular_file(candidate)) return candidate.string();
+  }
+  return "";
+}
+
+/// Frames [first, last] whose times the GPS covers, so that nothing is extrapolated.
+struct FrameRange {
+  std::size_t first = 0;
+  std::size_t last = 0;
+};
+
+std::optional<FrameRange> frames_under_gps(const DriveRecord& record) {
+  const std::vector<GpsFix>& gps = record.source.reference.gps;
+  if (gps.empty()) return std::nullopt;
+  const auto covered = [&](const FrameResult& frame) {
+    return frame.time_s >= gps.front().time_s && frame.time_s <= gps.back().time_s;
+  };
+  const auto& frames = record.frames;
+  const auto first = std::find_if(frames.begin(), frames.end(), covered);
+  const auto last = std::find_if(frames.rbegin(), frames.rend(), covered);
+  if (first == frames.end()) return std::nullopt;
+  const FrameRange range{static_cast<std::size_t>(first - frames.begin()),
+                         static_cast<std::size_t>(frames.rend() - last) - 1};
+  if (range.first == range.last) return std::nullopt;
+  return range;
+}
+
+/// Yaw of the vehicle over the range, turn by turn [rad].
+double heading_change(const Trajectory& vehicle, const FrameRange& range) {
+  double sum = 0.0;
+  for (std::size_t i = range.first + 1; i <= range.last; ++i) {
+    const Eigen::Matrix3d R = vehicle.poses[i - 1].linear().transpose() * vehicle.poses[i].linear();
+    sum += std::atan2(R(1, 0), R(0, 0));
+  }
+  return sum;
+}
+
+std::optional<GpsComparison> compare_with_gps(const DriveRecord& record) {
+  const auto range = frames_under_gps(record);
+  if (!range) return std::nullopt;
+  const double t0 = record.frames[range->first].time_s;
+  const double t1 = record.frames[range->last].time_s;
+  GpsComparison comparison;
+  comparison.heading_change = record.source.reference.heading_change(t0, t1);
+  comparison.distance = record.source.reference.distance(t0, t1);
+  if (!comparison.heading_change && !comparison.distance) return std::nullopt;
+  comparison.estimated_heading_change = heading_change(record.vehicle_trajectory(), *range);
+  const std::vector<Eigen::Isometry3d> poses = record.camera_trajectory().poses;
+  comparison.estimated_distance =
+      path_length({poses.begin() + static_cast<std::ptrdiff_t>(range->first),
+                   poses.begin() + static_cast<std::ptrdiff_t>(range->last) + 1});
+  return comparison;
+}
+
+template <class Predicate>
+std::size_t count_steps(const DriveRecord& record, Predicate&& predicate) {
+  return static_cast<std::size_t>(
+      std::count_if(record.frames.begin(), record.frames.end(),
+                    [&](const FrameResult& f) { return f.step && predicate(*f.step); }));
+}
+
+std::size_t count_status(const DriveRecord& record, StepStatus status) {
+  return count_steps(record, [=](const StepResult& s) { return s.status == status; });
+}
+
+/// "all" steps are in metres, "partly" (the others hold the speed), or "none".
+std::string metric_word(const DriveRecord& record) {
+  const std::size_t metric = count_steps(record, [](const StepResult& s) { return s.metric; });
+  const std::size_t steps = record.frames.empty() ? 0 : record.frames.size() - 1;
+  if (!(record.camera_height > 0.0) || metric == 0) return "none";
+  return metric == steps ? "all" : "partly";
+}
+
+Json counts_json(const DriveRecord& record) {
+  return {{"images_in_log", record.source.images_in_log},
+          {"images_missing", record.source.images_missing},
+          {"images_out_of_order", record.out_of_order},
+          {"frames", record.frames.size()},
+          {"steps_ok", count_status(record, StepStatus::kOk)},
+          {"steps_no_motion", count_status(record, StepStatus::kNoMotion)},
+          {"steps_predicted", count_status(record, StepStatus::kPredicted)},
+          {"steps_metric", count_steps(record, [](const StepResult& s) { return s.metric; })}};
+}
+
+Json tilt_json(const Tilt& tilt) {
+  return {{"pitch_up_deg", tilt.pitch_up / kDegree}, {"roll_right_deg", tilt.roll_right / kDegree}};
+}
+
+Json camera_json(const DriveRecord& record) {
+  const PinholeCamera& c = record.camera;
+  return {{"width_px", c.width},
+          {"height_px", c.height},
+          {"fx_px", c.fx},
+          {"fy_px", c.fy},
+          {"cx_px", c.cx},
+          {"cy_px", c.cy},
+          {"tilt_given", tilt_json(record.given_tilt)},
+          {"tilt_used_last", tilt_json(record.tilt)}};
+}
+
+Json gps_json(const GpsComparison& gps) {
+  Json json;
+  json["estimated_heading_change_deg"] = gps.estimated_heading_change / kDegree;
+  if (gps.heading_change) json["gps_heading_change_deg"] = *gps.heading_change / kDegree;
+  json["estimated_distance"] = gps.estimated_distance;
+  if (gps.distance) json["gps_distance_m"] = *gps.distance;
+  return json;
+}
+
+Json stage_json(std::vector<double> ms) {
+  if (ms.empty()) return nullptr;
+  const Statistics s = *statistics_of(ms);
+  return {{"median_ms", s.median}, {"mean_ms", s.mean}, {"p95_ms", s.p95}};
+}
+
+std::string processor_name() {
+  std::ifstream info("/proc/cpuinfo");
+  for (std::string line; std::getline(info, line);) {
+    if (line.rfind("model name", 0) != 0) continue;
+    const auto colon = line.find(": ");
+    if (colon != std::string::npos) return line.substr(colon + 2);
+  }
+  return "unknown";
+}
+
+Json timing_json(const DriveRecord& record, const RunOptions& options, double wall_seconds) {
+  std::vector<double> decode, features, estimate, refine;
+  for (const TimingRow& row : record.timings()) {
+    decode.push_back(row.decode_ms);
+    features.push_back(row.features_ms);
+    estimate.push_back(row.estimate_ms);
+    refine.push_back(row.refine_ms);
+  }
+  const double frames = static_cast<double>(record.frames.size());
+  return {{"wall_s", wall_seconds},
+          {"frames_per_s", wall_seconds > 0.0 ? frames / wall_seconds : 0.0},
+          {"threads", options.run.threads},
+          {"processor", processor_name()},
+          {"cores", std::thread::hardware_concurrency()},
+          {"decode", stage_json(decode)},
+          {"features", stage_json(features)},
+          {"estimate", stage_json(estimate)},
+          {"refine", stage_json(refine)}};
+}
+
+}  // namespace
+
+RunEvaluation evaluate_record(const DriveRecord& record, const RunOptions& options) {
+  RunEvaluation evaluation;
+  evaluation.reference_file = find_reference(options);
+  if (!evaluation.reference_file.empty() && record.frames.size() > 1) {
+    evaluation.against_poses =
+        evaluate_run(record.relative_poses(), record.camera_trajectory(),
+                     read_trajectory(evaluation.reference_file),
+                     metric_word(record) == "none" ? Alignment::kSim3 : Alignment::kSe3);
+  }
+  evaluation.against_gps = compare_with_gps(record);
+  return evaluation;
+}
+
+std::string summary_json(const DriveRecord& record, const RunEvaluation& evaluation,
+                         const RunOptions& options, double wall_seconds) {
+  Json json;
+  json["version"] = version();
+  json["log"] = options.log;
+  json["initialiser"] = options.front_end.initialiser;
+  json["seed"] = options.run.seed;
+  json["metric"] = metric_word(record);
+  json["camera_height_m"] = record.camera_height;
+  json["counts"] = counts_json(record);
+  json["camera"] = camera_json(record);
+  json["path_length"] = path_length(record.camera_trajectory().poses);
+  json["interrupted"] = record.interrupted;
+  json["damage"] = record.source.damage;
+  json["failure"] = record.failure;
+  Json reference;
+  if (evaluation.against_poses) {
+    reference["poses"] = evaluation.reference_file;
+    reference["errors"] = Json::parse(format_json(*evaluation.against_poses, false));
+  }
+  if (evaluation.against_gps) reference["gps"] = gps_json(*evaluation.against_gps);
+  json["reference"] = reference;
+  json["timing"] = timing_json(record, options, wall_seconds);
+  return json.dump(2) + "\n";
+}
+
+std::string summary_text(const DriveRecord& record, const RunEvaluation& evaluation) {
+  char line[256];
+  const std::string metric = metric_word(record);
+  std::snprintf(line, sizeof line, "%zu frames, %.1f %s, metric: %s\n", record.frames.size(),
+                path_length(record.camera_trajectory().poses), metric == "none" ? "units" : "m",
+                metric.c_str());
+  std::string text = line;
+  if (evaluation.against_poses) {
+    text += "against " + evaluation.reference_file + ":\n";
+    text += format_table(*evaluation.against_poses, false);
+  }
+  if (evaluation.against_gps) {
+    const GpsComparison& gps = *evaluation.against_gps;
+    if (gps.heading_change) {
+      std::snprintf(line, sizeof line, "change of heading %.2f deg (GPS course %.2f deg)\n",
+                    gps.estimated_heading_change / kDegree, *gps.heading_change / kDegree);
+      text += line;
+    }
+    if (gps.distance) {
+      std::snprintf(line, sizeof line, "path %.2f %s (GPS speed: %.2f m)\n", gps.estimated_distance,
+                    metric == "none" ? "units" : "m", *gps.distance);
+      text += line;
+    }
+  }
+  return text;
+}
+
+}  // namespace oneac::app

@@ -1,0 +1,39 @@
+#pragma once
+
+#include "drive_record.h"
+#include "run_options.h"
+
+#include "oneac/evaluation/evaluate.h"
+
+#include <optional>
+#include <string>
+
+namespace oneac::app {
+
+/// What the log's GPS says against the estimate, over the processed frames.
+struct GpsComparison {
+  std::optional<double> heading_change;   ///< [rad] counter-clockwise positive
+  double estimated_heading_change = 0.0;  ///< [rad]
+  std::optional<double> distance;         ///< [m] integrated speed
+  double estimated_distance = 0.0;        ///< [m]
+};
+
+/// A run compared with what is known about the drive.
+struct RunEvaluation {
+  std::string reference_file;  ///< "" when there is none
+  std::optional<Evaluation> against_poses;
+  std::optional<GpsComparison> against_gps;
+};
+
+/// Compares with --reference, else with poses found beside the log (`<base>_poses.txt`,
+/// `poses.txt`), and with the log's GPS. @throws InputError when --reference cannot be read
+[[nodiscard]] RunEvaluation evaluate_record(const DriveRecord& record, const RunOptions& options);
+
+/// summary.json. Only the object "timing" may differ between runs of the same input and parameters.
+[[nodiscard]] std::string summary_json(const DriveRecord& record, const RunEvaluation& evaluation,
+                                       const RunOptions& options, double wall_seconds);
+
+/// The few lines that `oneac run` prints.
+[[nodiscard]] std::string summary_text(const DriveRecord& record, const RunEvaluation& evaluation);
+
+}  // namespace oneac::app

@@ -1,0 +1,131 @@
+#include "drive_fixture.h"
+
+#include "oneac/evaluation/relative_poses_io.h"
+#include "oneac/evaluation/trajectory_io.h"
+
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <string>
+
+namespace oneac {
+namespace {
+
+namespace fs = std::filesystem;
+
+class RunVerb : public DriveFixture {
+ protected:
+  [[nodiscard]] fs::path run(const std::string& name, std::vector<std::string> extra = {}) const {
+    const fs::path folder = scratch() / name;
+    std::vector<std::string> arguments{"run", log(), "-o", folder.string()};
+    arguments.insert(arguments.end(), extra.begin(), extra.end());
+    const ProgramResult result = oneac_program(arguments);
+    EXPECT_EQ(result.exit_code, 0) << result.err;
+    return folder;
+  }
+  [[nodiscard]] static std::string summary_without_timing(const fs::path& folder) {
+    auto json = nlohmann::json::parse(read_file(folder / "summary.json"));
+    json.erase("timing");
+    return json.dump();
+  }
+};
+
+TEST_F(RunVerb, WritesARowForEveryProcessedFrame) {
+  const fs::path out = run("a");
+  EXPECT_EQ(read_kitti(out / "trajectory_camera.kitti").poses.size(), std::size_t{kFrames});
+  EXPECT_EQ(read_tum(out / "trajectory_camera.tum").poses.size(), std::size_t{kFrames});
+  EXPECT_EQ(read_tum(out / "trajectory_vehicle.tum").poses.size(), std::size_t{kFrames});
+  EXPECT_EQ(read_relative_poses(out / "relative_poses.csv").size(), std::size_t{kFrames - 1});
+  EXPECT_TRUE(read_kitti(out / "trajectory_camera.kitti").poses.front().matrix().isIdentity());
+}
+
+TEST_F(RunVerb, WritesTheColumnsThatOthersScriptAgainst) {
+  const fs::path out = run("a");
+  const auto first_line = [](const std::string& text) { return text.substr(0, text.find('\n')); };
+  EXPECT_EQ(first_line(read_file(out / "relative_poses.csv")),
+            "index1,index2,t1,t2,qw,qx,qy,qz,tx,ty,tz,metric,inliers,acs,status");
+  EXPECT_EQ(first_line(read_file(out / "timings.csv")),
+            "index1,index2,ms_decode,ms_features,ms_estimate,ms_refine");
+}
+
+TEST_F(RunVerb, GivesTheSameBytesAtAnyThreadCount) {
+  const fs::path one = run("one", {"--threads", "1"});
+  const fs::path four = run("four", {"--threads", "4"});
+  for (const char* name : {"trajectory_camera.kitti", "trajectory_camera.tum",
+                           "trajectory_vehicle.tum", "relative_poses.csv", "params.yaml"}) {
+    EXPECT_EQ(read_file(one / name), read_file(four / name)) << name;
+  }
+  EXPECT_EQ(summary_without_timing(one), summary_without_timing(four));
+}
+
+TEST_F(RunVerb, CountsIndicesInTheLogBeforeThinning) {
+  const auto rows =
+      read_relative_poses(run("a", {"--first", "1", "--every", "3"}) / "relative_poses.csv");
+  ASSERT_EQ(rows.size(), 2U);
+  EXPECT_EQ(rows[0].index1, 1U);
+  EXPECT_EQ(rows[0].index2, 4U);
+  EXPECT_EQ(rows[1].index2, 7U);
+  const auto few = read_relative_poses(run("b", {"--count", "3"}) / "relative_poses.csv");
+  EXPECT_EQ(few.size(), 2U);
+}
+
+TEST_F(RunVerb, IsNotMetricWithoutACameraHeight) {
+  // A sensor pose at the vehicle's origin does not tell the height.
+  const fs::path drive_2 = scratch() / "low";
+  ASSERT_EQ(oneac_program({"simulate", "-o", drive_2.string(), "--frames", "4", "--width", "320",
+                           "--height", "240", "--focal", "250", "--camera-height", "0.4"})
+                .exit_code,
+            0);
+  const fs::path out = scratch() / "low_out";
+  const ProgramResult result =
+      oneac_program({"run", (drive_2 / "simulated.rawlog").string(), "-o", out.string()});
+  EXPECT_EQ(result.exit_code, 0);
+  EXPECT_NE(result.err.find("camera_height"), std::string::npos) << result.err;
+  for (const auto& row : read_relative_poses(out / "relative_poses.csv")) {
+    if (row.status != "ok") continue;
+    EXPECT_FALSE(row.metric);
+    EXPECT_NEAR(row.T_2_1.t.norm(), 1.0, 1e-9);
+  }
+  EXPECT_EQ(nlohmann::json::parse(read_file(out / "summary.json"))["metric"], "none");
+}
+
+TEST_F(RunVerb, ComparesWithThePosesBesideTheLog) {
+  const auto json = nlohmann::json::parse(read_file(run("a") / "summary.json"));
+  EXPECT_FALSE(json["reference"]["errors"].is_null());
+  EXPECT_EQ(json["counts"]["frames"], kFrames);
+}
+
+TEST_F(RunVerb, TakesKeysFromFilesSettingsAndFlagsInThisOrder) {
+  write_text(scratch() / "p.yaml", "source:\n  count: 3\nfront_end:\n  consensus:\n    modes: 3\n");
+  const std::string params = (scratch() / "p.yaml").string();
+  const fs::path out = run("a", {"--params", params, "--set", "front_end.consensus.modes=5"});
+  EXPECT_EQ(read_relative_poses(out / "relative_poses.csv").size(), 2U);
+  const std::string effective = read_file(out / "params.yaml");
+  EXPECT_NE(effective.find("modes: 5"), std::string::npos);
+  EXPECT_EQ(
+      read_relative_poses(run("b", {"--params", params, "--count", "4"}) / "relative_poses.csv")
+          .size(),
+      3U);
+}
+
+TEST_F(RunVerb, EffectiveParametersRepeatTheRun) {
+  const fs::path a = run("a", {"--set", "front_end.consensus.modes=4", "--every", "2"});
+  const fs::path b = run("b", {"--params", (a / "params.yaml").string()});
+  EXPECT_EQ(read_file(a / "relative_poses.csv"), read_file(b / "relative_poses.csv"));
+}
+
+TEST_F(RunVerb, ShippedDefaultsAreThoseOfTheProgram) {
+  const ProgramResult result = oneac_program({"run", "--print-params"});
+  const std::string shipped = read_file(fs::path(ONEAC_SOURCE_DIR) / "params" / "default.yaml");
+  EXPECT_EQ(shipped.substr(shipped.find("source:")), result.out)
+      << "renew with: oneac run --print-params";
+}
+
+TEST_F(RunVerb, QuietSaysNothingOnStderr) {
+  const ProgramResult result = oneac_program({"run", log(), "-o", out(), "--quiet"});
+  EXPECT_EQ(result.exit_code, 0);
+  EXPECT_EQ(result.err, "");
+}
+
+}  // namespace
+}  // namespace oneac

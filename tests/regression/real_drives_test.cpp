@@ -1,0 +1,111 @@
+#include "oneac/evaluation/evaluate.h"
+#include "oneac/evaluation/relative_poses_io.h"
+#include "oneac/evaluation/trajectory_io.h"
+#include "oneac/geometry/angular_errors.h"
+#include "oneac/test_support/program.h"
+#include "oneac/test_support/temporary_folder.h"
+
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <fstream>
+#include <iterator>
+#include <memory>
+
+namespace oneac {
+namespace {
+
+constexpr double kDegree = 3.14159265358979323846 / 180.0;
+
+/// The folder of the real drives; tests/run.sh sets it and leaves these tests out without it.
+std::string data_folder() {
+  const char* folder = std::getenv("ONEAC_REAL_DATA");
+  return folder != nullptr ? folder : std::string(ONEAC_SOURCE_DIR) + "/../shared/data";
+}
+
+std::string params(const std::string& name) {
+  return std::string(ONEAC_SOURCE_DIR) + "/params/" + name;
+}
+
+std::string read_text(const std::string& path) {
+  std::ifstream in(path);
+  return {std::istreambuf_iterator<char>(in), {}};
+}
+
+/// Median per component of the directions of translation.
+Eigen::Vector3d median_direction(const std::vector<RelativePoseRow>& rows) {
+  Eigen::Vector3d median;
+  for (int axis = 0; axis < 3; ++axis) {
+    std::vector<double> values;
+    for (const auto& row : rows) values.push_back(row.T_2_1.t.normalized()(axis));
+    median(axis) = percentile(values, 50.0);
+  }
+  return median.normalized();
+}
+
+TEST(Malaga07, RunsNativelyFromItsOriginalRawlog) {
+  const std::string data = data_folder() + "/malaga-07/";
+  const std::string log = data + "malaga-urban-dataset-extract-07_CAM_GPS.rawlog";
+  const TemporaryFolder folder;
+  const std::string out = folder.path().string();
+
+  const ProgramResult info = run_program({ONEAC_PROGRAM, "info", log});
+  ASSERT_EQ(info.exit_code, 0) << info.err;
+  for (const char* words : {"2121", "20.00 Hz", "212", "160 of 4242 present", "8.2° upward",
+                            "x_forward", "106.0 s", "raw"}) {
+    EXPECT_NE(info.out.find(words), std::string::npos) << words << " not in\n" << info.out;
+  }
+
+  const ProgramResult run =
+      run_program({ONEAC_PROGRAM, "run", log, "-o", out, "--camera", "right", "--calibration",
+                   data + "camera_params_rectified_a=0_1024x768.txt:CAMERA_RIGHT", "--params",
+                   params("malaga.yaml")});
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  EXPECT_EQ(std::count(run.err.begin(), run.err.end(), '\n'), 1) << run.err;
+  EXPECT_NE(run.err.find("1961 of 2121"), std::string::npos) << run.err;
+  EXPECT_EQ(read_kitti(out + "/trajectory_camera.kitti").poses.size(), 160U);
+
+  const auto rows = read_relative_poses(out + "/relative_poses.csv");
+  ASSERT_EQ(rows.size(), 159U);
+  const Eigen::Vector3d median = median_direction(rows);
+  for (const auto& row : rows) {
+    EXPECT_LE(direction_error(row.T_2_1.t, median), 5.0 * kDegree) << "pair " << row.index1;
+  }
+  const auto gps = nlohmann::json::parse(read_text(out + "/summary.json"))["reference"]["gps"];
+  EXPECT_NEAR(gps["estimated_heading_change_deg"].get<double>(),
+              gps["gps_heading_change_deg"].get<double>(), 2.0);
+  EXPECT_NEAR(gps["estimated_distance"].get<double>() / gps["gps_distance_m"].get<double>(), 1.0,
+              0.03);
+}
+
+TEST(Kitti03, MeetsItsBoundsOnConsecutiveFrames) {
+  const TemporaryFolder folder;
+  const std::string log = (folder.path() / "kitti-03.rawlog").string();
+  const std::string out = (folder.path() / "out").string();
+  const ProgramResult import =
+      run_program({ONEAC_PROGRAM, "import", "kitti", data_folder() + "/kitti-03", "-o", log});
+  ASSERT_EQ(import.exit_code, 0) << import.err;
+  EXPECT_EQ(run_program({"rawlog-edit", "--info", "-i", log}).exit_code, 0);
+  const ProgramResult run =
+      run_program({ONEAC_PROGRAM, "run", log, "-o", out, "--params", params("kitti.yaml")});
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+
+  const Trajectory estimate = read_kitti(out + "/trajectory_camera.kitti");
+  ASSERT_EQ(estimate.poses.size(), 400U);
+  const Evaluation evaluation =
+      evaluate_run(read_relative_poses(out + "/relative_poses.csv"), estimate,
+                   read_kitti(data_folder() + "/kitti-03/poses.txt"));
+  const PairSummary& pairs = *evaluation.pair_summary;
+  EXPECT_LE(pairs.rotation->median, 0.04 * kDegree);
+  EXPECT_LE(pairs.rotation->mean, 0.12 * kDegree);
+  EXPECT_LE(pairs.direction->median, 0.9 * kDegree);
+  EXPECT_GE(static_cast<double>(pairs.metric), 0.8 * static_cast<double>(pairs.moving));
+  EXPECT_LE(pairs.length->median, 0.08);
+}
+
+}  // namespace
+}  // namespace oneac

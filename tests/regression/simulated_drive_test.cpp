@@ -1,0 +1,78 @@
+#include "oneac/evaluation/evaluate.h"
+#include "oneac/evaluation/relative_poses_io.h"
+#include "oneac/evaluation/trajectory_io.h"
+#include "oneac/test_support/program.h"
+#include "oneac/test_support/temporary_folder.h"
+
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include <cmath>
+#include <memory>
+
+namespace oneac {
+namespace {
+
+constexpr double kDegree = 3.14159265358979323846 / 180.0;
+
+/// The demo's drive: `oneac simulate`, then `oneac run`, both with their defaults.
+class SimulatedDrive : public ::testing::Test {
+ protected:
+  static void SetUpTestSuite() {
+    folder_ = std::make_unique<TemporaryFolder>();
+    const std::string drive = (folder_->path() / "drive").string();
+    const std::string out = (folder_->path() / "out").string();
+    ASSERT_EQ(run_program({ONEAC_PROGRAM, "simulate", "-o", drive}).exit_code, 0);
+    const ProgramResult run =
+        run_program({ONEAC_PROGRAM, "run", drive + "/simulated.rawlog", "-o", out});
+    ASSERT_EQ(run.exit_code, 0) << run.err;
+    rows_ = read_relative_poses(out + "/relative_poses.csv");
+    evaluation_ = evaluate_run(rows_, read_kitti(out + "/trajectory_camera.kitti"),
+                               read_kitti(drive + "/poses.txt"));
+  }
+  static void TearDownTestSuite() { folder_.reset(); }
+
+  static std::unique_ptr<TemporaryFolder> folder_;
+  static std::vector<RelativePoseRow> rows_;
+  static Evaluation evaluation_;
+};
+
+std::unique_ptr<TemporaryFolder> SimulatedDrive::folder_;
+std::vector<RelativePoseRow> SimulatedDrive::rows_;
+Evaluation SimulatedDrive::evaluation_;
+
+TEST_F(SimulatedDrive, PairsAreAccurateAndNoneLiesInAWrongBasin) {
+  const PairSummary& summary = *evaluation_.pair_summary;
+  EXPECT_LE(summary.rotation->median, 0.04 * kDegree);
+  EXPECT_LE(summary.rotation->mean, 0.12 * kDegree);
+  EXPECT_LE(summary.direction->median, 0.9 * kDegree);
+  EXPECT_EQ(summary.bad, 0U);
+}
+
+TEST_F(SimulatedDrive, MostMovingPairsAreInMetres) {
+  const PairSummary& summary = *evaluation_.pair_summary;
+  EXPECT_GE(static_cast<double>(summary.metric), 0.8 * static_cast<double>(summary.moving));
+  EXPECT_LE(summary.length->median, 0.08);
+}
+
+TEST_F(SimulatedDrive, TheStopIsAStop) {
+  std::size_t standing = 0;
+  for (std::size_t i = 0; i < rows_.size(); ++i) {
+    if (evaluation_.pairs[i].true_step > 0.002)
+      continue;  // rocking on the springs moves millimetres
+    ++standing;
+    EXPECT_EQ(rows_[i].status, "no_motion") << "pair " << rows_[i].index1;
+    EXPECT_EQ(rows_[i].T_2_1.t.norm(), 0.0);
+  }
+  EXPECT_GE(standing, 20U);
+}
+
+TEST_F(SimulatedDrive, TheTrajectoryStaysOnTheRoad) {
+  ASSERT_TRUE(evaluation_.trajectory.has_value());
+  EXPECT_LE(std::abs(*evaluation_.trajectory->scale_error), 0.05);
+  EXPECT_LE(evaluation_.trajectory->ape.rmse, 0.05 * evaluation_.trajectory->length);
+}
+
+}  // namespace
+}  // namespace oneac

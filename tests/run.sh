@@ -1,0 +1,17 @@
+#!/usr/bin/env bash
+# Builds everything and runs every test; extra arguments go to ctest.
+# The real drives are tested where ONEAC_REAL_DATA (default: ../shared/data) holds them.
+set -euo pipefail
+source "$(dirname "${BASH_SOURCE[0]}")/../apps/setup.sh"
+
+install_packages build test
+build_preset dev | tail -n 1
+
+export ONEAC_REAL_DATA="${ONEAC_REAL_DATA:-$oneac_root/../shared/data}"
+without_data=()
+if [ ! -d "$ONEAC_REAL_DATA/malaga-07" ] || [ ! -d "$ONEAC_REAL_DATA/kitti-03" ]; then
+  echo "oneac: no drives in $ONEAC_REAL_DATA: the tests on real data are not run"
+  without_data=(--label-exclude real_data)
+fi
+ctest --test-dir "$oneac_root/build/dev" --output-on-failure --no-tests=error -j "$(nproc)" \
+  "${without_data[@]}" "$@"
