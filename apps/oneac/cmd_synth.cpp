@@ -72,7 +72,7 @@ struct Outcome {
 };
 
 Outcome run(const SynthArguments& arguments) {
-  ProgressBar bar(!arguments.no_progress);
+  ProgressBar bar(!arguments.no_progress, "trials");
   // The readings run the study eight more times, without the supplement's rapid against optimal.
   const double share_of_study = arguments.readings ? 0.13 : 1.0;
   Outcome outcome;

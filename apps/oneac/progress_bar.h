@@ -2,13 +2,15 @@
 
 #include <chrono>
 #include <cstddef>
+#include <string>
 
 namespace oneac::app {
 
 /// A line on stderr that shows how far a job is; silent in a pipe or when switched off.
 class ProgressBar {
  public:
-  explicit ProgressBar(bool wanted);
+  /// @param noun  what is counted
+  explicit ProgressBar(bool wanted, std::string noun = "frames");
   ~ProgressBar();
   ProgressBar(const ProgressBar&) = delete;
   ProgressBar& operator=(const ProgressBar&) = delete;
@@ -20,6 +22,7 @@ class ProgressBar {
  private:
   using Clock = std::chrono::steady_clock;
   bool active_;
+  std::string noun_;
   Clock::time_point start_ = Clock::now();
   Clock::time_point shown_{};
 };

@@ -44,8 +44,8 @@ DriveRecord run_drive(const RunOptions& options) {
       }
       return std::nullopt;
     };
-    const auto prepare = [&](FrameTicket ticket) {
-      CameraFrame frame = source.load(std::move(ticket));
+    const auto prepare = [&](const FrameTicket& ticket) {
+      CameraFrame frame = source.load(ticket);
       const double decode_ms = frame.decode_ms;
       return Prepared{front_end.prepare(std::move(frame)), decode_ms};
     };

@@ -135,7 +135,7 @@ Json gps_json(const GpsComparison& gps) {
   return json;
 }
 
-Json stage_json(std::vector<double> ms) {
+Json stage_json(const std::vector<double>& ms) {
   if (ms.empty()) return nullptr;
   const Statistics s = *statistics_of(ms);
   return {{"median_ms", s.median}, {"mean_ms", s.mean}, {"p95_ms", s.p95}};

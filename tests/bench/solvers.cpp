@@ -190,6 +190,8 @@ void add_one_ac() {
       [](AcSpan s) { return relpose_1ac_front_wall_rapid(s[0]); });
   add("relpose_1ac_wall", {Motion::kPlanar, Surface::kWall, 1},
       [](AcSpan s) { return relpose_1ac_wall(s[0]); });
+  add("relpose_1ac_wall_candidates", {Motion::kPlanar, Surface::kWall, 1},
+      [](AcSpan s) { return relpose_1ac_wall_candidates(s[0]); });
   add("relpose_1ac_planar", {Motion::kPlanar, Surface::kAny, 1},
       [](AcSpan s) { return relpose_1ac_planar(s[0]); });
   add("relpose_1ac_planar_pitch", {Motion::kPitched, Surface::kAny, 1},

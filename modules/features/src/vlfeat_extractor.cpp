@@ -21,6 +21,8 @@ namespace {
 // patch units.
 constexpr int kPatchRadius = 15;
 constexpr int kPatchSide = 2 * kPatchRadius + 1;
+constexpr std::size_t kPatchPixels = std::size_t{kPatchSide} * std::size_t{kPatchSide};
+constexpr vl_size kGradientStride = vl_size{2} * kPatchSide;  // modulus and angle interleaved
 constexpr double kPatchExtent = 7.5;
 constexpr double kPatchSmoothing = 1.0;
 constexpr double kDescriptorMagnification = 3.0;
@@ -64,11 +66,11 @@ void keep_strongest(VlCovDet* detector, std::size_t count) {
 /// RootSIFT of the patch under the frame: unit length, square roots of an L1-normalised histogram.
 Eigen::Matrix<float, 1, 128> describe_patch(VlCovDet* detector, VlSiftFilt* sift,
                                             const VlFrameOrientedEllipse& frame) {
-  std::array<float, kPatchSide * kPatchSide> patch{};
-  std::array<float, 2 * kPatchSide * kPatchSide> gradient{};
+  std::array<float, kPatchPixels> patch{};
+  std::array<float, 2 * kPatchPixels> gradient{};
   vl_covdet_extract_patch_for_frame(detector, patch.data(), kPatchRadius, kPatchExtent,
                                     kPatchSmoothing, frame);
-  vl_imgradient_polar_f(gradient.data(), gradient.data() + 1, 2, 2 * kPatchSide, patch.data(),
+  vl_imgradient_polar_f(gradient.data(), gradient.data() + 1, 2, kGradientStride, patch.data(),
                         kPatchSide, kPatchSide, kPatchSide);
   const double step = kPatchExtent / kPatchRadius;
   const double sigma =

@@ -6,6 +6,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <fstream>
 #include <iterator>
 #include <set>
@@ -69,6 +70,15 @@ TEST(Study, SeedsOfTrialsDiffer) {
     }
   }
   EXPECT_EQ(seeds.size(), experiments().size() * 17U * 100U);
+}
+
+TEST(Study, PointsOfASweepDrawAnew) {
+  // Small errors are linear in the noise: the same draws would double them exactly.
+  const Experiment& experiment = experiment_named("rapid_ground");
+  const auto mean = [&](std::size_t point) {
+    return run_point(experiment, point, small({}, 10)).methods[0].of(StudyMetric::rotation).mean;
+  };
+  EXPECT_GT(std::abs(mean(2) / mean(1) - 2.0), 0.1);
 }
 
 TEST(Study, StatisticsAreThoseOfTheSolvedTrials) {
