@@ -14,6 +14,7 @@
 #include <filesystem>
 #include <iostream>
 #include <memory>
+#include <stdexcept>
 
 namespace oneac::app {
 namespace {
@@ -40,6 +41,7 @@ void add_key(CLI::App* verb, const std::string& flag, const std::string& key, Ru
 void fail_if_incomplete(const DriveRecord& record) {
   if (!record.failure.empty()) throw InputError("stopped early", record.failure, "");
   if (!record.source.damage.empty()) throw InputError("log", record.source.damage, "");
+  if (record.interrupted) throw std::runtime_error("interrupted; what was computed is written");
 }
 
 void write_all(const DriveRecord& record, RunOptions& options, double wall_seconds) {
@@ -85,7 +87,8 @@ void add_run(CLI::App& program) {
   auto flags = std::make_shared<RunFlags>();
   verb->add_option("LOG", flags->options.log, "rawlog: plain, .gz or zstd");
   verb->add_option("-o,--output", flags->options.output, "folder for the results, made if missing");
-  verb->add_option("--params", flags->parameter_files, "YAML with parameters; later files win");
+  verb->add_option("--params", flags->parameter_files, "YAML with parameters; may be repeated")
+      ->allow_extra_args(false);
   verb->add_option("--set", flags->settings, "section.key=value, any key of params/default.yaml")
       ->allow_extra_args(false);
   add_key(verb, "--initialiser", "front_end.initialiser", *flags, "method of the relative pose");

@@ -121,6 +121,14 @@ TEST_F(RunVerb, ShippedDefaultsAreThoseOfTheProgram) {
       << "renew with: oneac run --print-params";
 }
 
+TEST_F(RunVerb, FlagsDoNotSwallowTheLogBehindThem) {
+  write_text(scratch() / "p.yaml", "source:\n  count: 3\n");
+  const ProgramResult result =
+      oneac_program({"run", "--params", (scratch() / "p.yaml").string(), "--set",
+                     "front_end.consensus.modes=4", log(), "-o", out()});
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+}
+
 TEST_F(RunVerb, QuietSaysNothingOnStderr) {
   const ProgramResult result = oneac_program({"run", log(), "-o", out(), "--quiet"});
   EXPECT_EQ(result.exit_code, 0);
