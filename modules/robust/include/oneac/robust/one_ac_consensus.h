@@ -25,7 +25,7 @@ struct ConsensusOptions {
   double pitch_sweep_deg =
       1.8;  ///< [deg] relative pitch covered each way; the suspension gives up to this
   double pitch_step_deg = 0.3;  ///< [deg] at f = 700 px 3.7 px: within the basin of the polishing
-  int modes = 16;  ///< distinct hypotheses that are polished; beyond twelve none was worth it
+  int modes = 16;               ///< distinct hypotheses that are polished; reason in docs/decisions
   double mode_rotation_deg = 0.2;   ///< [deg] modes closer than both are one
   double mode_direction_deg = 8.0;  ///< [deg] polishing comes back from farther
   int min_inliers = 15;             ///< fewer support nothing: five unknowns, three times over
