@@ -30,7 +30,7 @@ Eigen::Isometry3d to_isometry(const RelativePose& pose) {
 
 mrpt::containers::yaml to_yaml(ConsensusOptions options) {
   ParameterTable table;
-  table.add("", options);
+  table.add("consensus", options);
   return mrpt::containers::yaml::FromText(table.to_yaml(false));
 }
 
@@ -120,7 +120,7 @@ StepResult FrontEnd::estimate_step(const PreparedFrame& now) {
     }
   }
   step.acs = acs.size();
-  const InitialiserInput input{acs, tilt_->leveling(), now.frame.camera.focal_px()};
+  const InitialiserInput input{acs, tilt_->leveling(), now.frame.camera.focal_px(), 0};
   InitialiserResult found;
   {
     const StageTimer timer(step.estimate_ms);

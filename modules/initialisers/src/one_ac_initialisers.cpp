@@ -18,8 +18,8 @@ namespace oneac {
 void OneAcInitialiser::configure(const mrpt::containers::yaml& parameters) {
   ConsensusOptions options;
   ParameterTable table;
-  table.add("", options);
-  apply_yaml(parameters, "consensus", table);
+  table.add("consensus", options);
+  apply_yaml(parameters, name(), table);
   try {
     options.validate();
   } catch (const std::invalid_argument& error) {

@@ -49,7 +49,7 @@ TEST(Initialiser, EveryMethodFindsPlanarMotion) {
   const RelativePose truth = scene.planar_motion();
   const auto acs = street(scene, truth);
   for (const std::string& name : initialiser_names()) {
-    const auto result = make_initialiser(name)->estimate({acs, Eigen::Matrix3d::Identity(), 700.0});
+    const auto result = make_initialiser(name)->estimate({acs, Eigen::Matrix3d::Identity(), 700.0, 0});
     ASSERT_EQ(result.status, PoseStatus::kOk) << name;
     EXPECT_LT(rotation_error(result.pose.R, truth.R), 1e-4) << name;
     EXPECT_LT(direction_error(result.pose.t, truth.t), 1e-3) << name;
@@ -60,16 +60,16 @@ TEST(Initialiser, TakesItsOptionsFromYaml) {
   SceneGenerator scene(8);
   const auto acs = street(scene, scene.planar_motion());
   const auto initialiser = make_initialiser("1ac_pooled");
-  initialiser->configure(mrpt::containers::yaml::FromText("min_inliers: 1000"));
-  EXPECT_EQ(initialiser->estimate({acs, Eigen::Matrix3d::Identity(), 700.0}).status,
+  initialiser->configure(mrpt::containers::yaml::FromText("consensus: {min_inliers: 1000}"));
+  EXPECT_EQ(initialiser->estimate({acs, Eigen::Matrix3d::Identity(), 700.0, 0}).status,
             PoseStatus::kTooFew);
 }
 
 TEST(Initialiser, RefusesUnknownKeysAndValuesOutOfBounds) {
   const auto initialiser = make_initialiser("1ac_pooled");
-  EXPECT_THROW(initialiser->configure(mrpt::containers::yaml::FromText("treshold_px: 1")),
+  EXPECT_THROW(initialiser->configure(mrpt::containers::yaml::FromText("consensus: {treshold_px: 1}")),
                InputError);
-  EXPECT_THROW(initialiser->configure(mrpt::containers::yaml::FromText("threshold_px: -1")),
+  EXPECT_THROW(initialiser->configure(mrpt::containers::yaml::FromText("consensus: {threshold_px: -1}")),
                InputError);
 }
 

@@ -112,10 +112,10 @@ double median(std::vector<double> values) {
 
 /// The answer of a camera that did not travel: still, or rocking on its suspension (R ≠ I, t = 0).
 /// Empty when neither explains the points.
-std::optional<ConsensusResult> standing(AcSpan acs, double threshold, double standing_shift) {
+std::optional<RobustResult> standing(AcSpan acs, double threshold, double standing_shift) {
   const Eigen::Matrix3d still = Eigen::Matrix3d::Identity();
   std::vector<double> errors = rotation_transfer_errors(still, acs);
-  ConsensusResult result;
+  RobustResult result;
   if (median(errors) >= standing_shift) {
     result.pose.R = fit_rotation(acs, threshold);
     errors = rotation_transfer_errors(result.pose.R, acs);
@@ -131,9 +131,9 @@ std::optional<ConsensusResult> standing(AcSpan acs, double threshold, double sta
 }
 
 /// The consensus of correspondences that are all finite.
-ConsensusResult consensus_of_finite(AcSpan acs, const Eigen::Matrix3d& R_level_cam, double focal_px,
+RobustResult consensus_of_finite(AcSpan acs, const Eigen::Matrix3d& R_level_cam, double focal_px,
                                     const ConsensusOptions& options) {
-  ConsensusResult result;
+  RobustResult result;
   result.inliers.assign(acs.size(), false);
   if (acs.size() < static_cast<std::size_t>(options.min_inliers)) return result;
   const double threshold = options.threshold_px / focal_px;
@@ -151,7 +151,7 @@ ConsensusResult consensus_of_finite(AcSpan acs, const Eigen::Matrix3d& R_level_c
     planar_hypotheses(acs, R_level_cam, pitch, {options.ground, options.planar}, score);
   }
 
-  result.hypotheses = scored;
+  result.statistics.hypotheses = scored;
   result.cost = std::numeric_limits<double>::infinity();
   for (const RelativePose& mode : distinct_modes(best.sorted(), options)) {
     const RelativePose polished = polish_twice(mode, acs, threshold);
@@ -181,18 +181,6 @@ void require(bool good, const char* field, double value, const char* bound) {
 
 }  // namespace
 
-const char* to_string(PoseStatus status) {
-  switch (status) {
-    case PoseStatus::kOk:
-      return "ok";
-    case PoseStatus::kNoMotion:
-      return "no_motion";
-    case PoseStatus::kTooFew:
-      return "too_few";
-  }
-  return "unknown";
-}
-
 void ConsensusOptions::validate() const {
   require(ground || planar, "ground", 0, "true when consensus.planar is false");
   require(threshold_px > 0.0, "threshold_px", threshold_px, "positive");
@@ -206,13 +194,13 @@ void ConsensusOptions::validate() const {
   require(standing_px >= 0.0, "standing_px", standing_px, "at least 0");
 }
 
-ConsensusResult one_ac_consensus(AcSpan acs, const Eigen::Matrix3d& R_level_cam, double focal_px,
+RobustResult one_ac_consensus(AcSpan acs, const Eigen::Matrix3d& R_level_cam, double focal_px,
                                  const ConsensusOptions& options) {
   std::vector<AffineCorrespondence> finite;
   finite.reserve(acs.size());
   std::copy_if(acs.begin(), acs.end(), std::back_inserter(finite),
                [](const AffineCorrespondence& ac) { return ac.is_finite(); });
-  ConsensusResult result = consensus_of_finite(finite, R_level_cam, focal_px, options);
+  RobustResult result = consensus_of_finite(finite, R_level_cam, focal_px, options);
   if (finite.size() == acs.size()) return result;
   std::vector<bool> inliers(acs.size(), false);
   for (std::size_t i = 0, k = 0; i < acs.size(); ++i) {

@@ -30,7 +30,7 @@ std::vector<AffineCorrespondence> street(SceneGenerator& scene, const RelativePo
   return acs;
 }
 
-void expect_close(const ConsensusResult& result, const RelativePose& truth, int trial) {
+void expect_close(const RobustResult& result, const RelativePose& truth, int trial) {
   ASSERT_EQ(result.status, PoseStatus::kOk) << "trial " << trial;
   EXPECT_LT(rotation_error(result.pose.R, truth.R), 0.2 * kDegree) << "trial " << trial;
   EXPECT_LT(direction_error(result.pose.t, truth.t), 2.0 * kDegree) << "trial " << trial;
@@ -70,7 +70,7 @@ TEST(OneAcConsensus, ReportsAStandingCamera) {
     ac.x1 = scene.image_point();
     ac.x2 = ac.x1 + Eigen::Vector2d(scene.normal(0.1 / kFocal), scene.normal(0.1 / kFocal));
   }
-  const ConsensusResult result = one_ac_consensus(acs, kLevel, kFocal, {});
+  const RobustResult result = one_ac_consensus(acs, kLevel, kFocal, {});
   EXPECT_EQ(result.status, PoseStatus::kNoMotion);
   EXPECT_EQ(result.pose.t.norm(), 0.0);
   EXPECT_TRUE(result.pose.R.isIdentity());
@@ -85,7 +85,7 @@ TEST(OneAcConsensus, ReportsARockingCameraAsRotationWithoutTranslation) {
     acs.push_back(scene.with_noise(scene.on_plane(T, scene.any_plane()), 0.15 / kFocal, 0.01));
     if (i % 10 == 0) acs.back().x2 = scene.image_point();  // traffic
   }
-  const ConsensusResult result = one_ac_consensus(acs, kLevel, kFocal, {});
+  const RobustResult result = one_ac_consensus(acs, kLevel, kFocal, {});
   EXPECT_EQ(result.status, PoseStatus::kNoMotion);
   EXPECT_EQ(result.pose.t.norm(), 0.0);
   EXPECT_LT(rotation_error(result.pose.R, T.R), 0.01 * kDegree);
@@ -98,7 +98,7 @@ TEST(OneAcConsensus, RefusesTooFewCorrespondencesAndNoise) {
   for (auto& ac : acs) ac = {scene.image_point(), scene.image_point(), Eigen::Matrix2d::Identity()};
   ConsensusOptions strict;
   strict.min_inliers = 30;
-  const ConsensusResult result = one_ac_consensus(acs, kLevel, kFocal, strict);
+  const RobustResult result = one_ac_consensus(acs, kLevel, kFocal, strict);
   EXPECT_EQ(result.status, PoseStatus::kTooFew);
   EXPECT_EQ(result.inliers.size(), acs.size());
 }
@@ -106,8 +106,8 @@ TEST(OneAcConsensus, RefusesTooFewCorrespondencesAndNoise) {
 TEST(OneAcConsensus, GivesTheSameBitsEachTime) {
   SceneGenerator scene(26);
   const auto acs = street(scene, scene.planar_motion());
-  const ConsensusResult a = one_ac_consensus(acs, kLevel, kFocal, {});
-  const ConsensusResult b = one_ac_consensus(acs, kLevel, kFocal, {});
+  const RobustResult a = one_ac_consensus(acs, kLevel, kFocal, {});
+  const RobustResult b = one_ac_consensus(acs, kLevel, kFocal, {});
   EXPECT_TRUE(a.pose.R == b.pose.R && a.pose.t == b.pose.t);
   EXPECT_EQ(a.inliers, b.inliers);
 }
@@ -119,7 +119,7 @@ TEST(OneAcConsensus, SurvivesCorrespondencesThatAreNotFinite) {
   acs[5].A(0, 0) = std::numeric_limits<double>::quiet_NaN();
   acs[7].x2.x() = std::numeric_limits<double>::infinity();
   acs[9].x1.y() = std::numeric_limits<double>::quiet_NaN();
-  const ConsensusResult result = one_ac_consensus(acs, kLevel, kFocal, {});
+  const RobustResult result = one_ac_consensus(acs, kLevel, kFocal, {});
   expect_close(result, T, 0);
   EXPECT_FALSE(result.inliers[7]);
   EXPECT_FALSE(result.inliers[9]);

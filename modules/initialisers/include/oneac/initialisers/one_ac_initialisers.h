@@ -1,6 +1,7 @@
 #pragma once
 
 #include "oneac/initialisers/relative_pose_initialiser.h"
+#include "oneac/robust/one_ac_consensus.h"
 
 namespace oneac {
 

@@ -1,11 +1,12 @@
 #pragma once
 
 #include "oneac/mrpt_compat/rtti.h"
-#include "oneac/robust/one_ac_consensus.h"
+#include "oneac/robust/robust_result.h"
 #include "oneac/solvers/span.h"
 
 #include <mrpt/system/COutputLogger.h>
 
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -20,11 +21,12 @@ struct InitialiserInput {
   AcSpan acs;  ///< normalised, of the camera as it is mounted (tilted)
   Eigen::Matrix3d R_level_cam = Eigen::Matrix3d::Identity();  ///< removes the camera's tilt
   double focal_px = 1.0;                                      ///< [px] of one normalised unit
+  std::uint64_t seed = 0;  ///< of methods that draw random samples
 };
 
 /// What it answers: status, pose in the camera frame (|t| = 1, or 0 when the camera stood),
 /// inliers.
-using InitialiserResult = ConsensusResult;
+using InitialiserResult = RobustResult;
 
 /// A relative-pose method as an MRPT class: made by name through MRPT's class factory, configured
 /// by YAML, logging through COutputLogger. Derive from it, declare with DEFINE_MRPT_OBJECT and
@@ -37,7 +39,11 @@ class RelativePoseInitialiser : public mrpt::rtti::CObject, public mrpt::system:
 
   /// The short name for command lines and tables, e.g. "1ac_pooled".
   [[nodiscard]] virtual std::string name() const = 0;
-  /// Takes the keys of ConsensusOptions (or of the derived class) from a YAML map.
+  /// Names of the robust estimators that it can run in, the default one first; key `estimator`
+  /// chooses. A method with an estimator of its own has nothing to choose.
+  [[nodiscard]] virtual std::vector<std::string> estimators() const { return {"own"}; }
+  /// Takes its keys from a YAML map: `estimator`, the sections `consensus` and `gc_ransac`, or
+  /// whatever the derived class defines.
   /// @throws InputError naming key, value and bound
   virtual void configure(const mrpt::containers::yaml& parameters) = 0;
   /// Estimates one pair. Deterministic; does not change the object, so it is thread-safe.

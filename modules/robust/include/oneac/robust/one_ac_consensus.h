@@ -1,6 +1,6 @@
 #pragma once
 
-#include "oneac/geometry/relative_pose.h"
+#include "oneac/robust/robust_result.h"
 #include "oneac/solvers/span.h"
 
 #include <cstddef>
@@ -8,14 +8,6 @@
 #include <vector>
 
 namespace oneac {
-
-/// What a robust estimate amounts to.
-enum class PoseStatus {
-  kOk,        ///< pose with a direction of translation
-  kNoMotion,  ///< the camera did not travel: t = 0 is the answer; R ≠ I when it rocked or turned
-  kTooFew,    ///< too few correspondences or inliers: no pose
-};
-[[nodiscard]] const char* to_string(PoseStatus status);
 
 /// Exhaustive one-AC consensus. validate() throws std::invalid_argument naming field, value, bound.
 struct ConsensusOptions {
@@ -49,15 +41,6 @@ void describe(Visitor&& visit, ConsensusOptions& o) {
   visit("standing_px", o.standing_px, "px", "median shift, rotation removed, of a standing camera");
 }
 
-struct ConsensusResult {
-  PoseStatus status = PoseStatus::kTooFew;
-  RelativePose pose;          ///< camera frame (tilt put back), |t| = 1 or 0
-  std::vector<bool> inliers;  ///< one per correspondence
-  std::size_t inlier_count = 0;
-  std::size_t hypotheses = 0;  ///< scored
-  double cost = 0.0;           ///< MSAC cost of the result, 0 … number of correspondences
-};
-
 /// Relative pose from one-AC hypotheses without a random number: every correspondence is solved at
 /// every relative pitch of the sweep, every hypothesis is scored on all points (MSAC on the Sampson
 /// distance), the best few distinct ones are polished on all correspondences with five degrees of
@@ -66,7 +49,7 @@ struct ConsensusResult {
 /// @param acs          normalised correspondences of the (tilted) camera
 /// @param R_level_cam  removes the camera's tilt (geometry/leveling.h), the same in both views
 /// @param focal_px     what turns threshold_px into normalised units [px]
-[[nodiscard]] ConsensusResult one_ac_consensus(AcSpan acs, const Eigen::Matrix3d& R_level_cam,
+[[nodiscard]] RobustResult one_ac_consensus(AcSpan acs, const Eigen::Matrix3d& R_level_cam,
                                                double focal_px, const ConsensusOptions& options);
 
 }  // namespace oneac
