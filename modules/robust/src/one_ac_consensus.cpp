@@ -1,175 +1,144 @@
 #include "oneac/robust/one_ac_consensus.h"
 
-#include "oneac/geometry/angular_errors.h"
+#include "pose_search.h"
+
 #include "oneac/geometry/essential.h"
-#include "oneac/geometry/triangulation.h"
-#include "oneac/robust/hypotheses.h"
+#include "oneac/robust/degeneracy.h"
 #include "oneac/robust/point_set.h"
 #include "oneac/robust/polish.h"
-#include "oneac/robust/rotation_only.h"
+
+#include <Eigen/Dense>
 
 #include <algorithm>
 #include <cmath>
 #include <iterator>
 #include <limits>
-#include <optional>
 #include <stdexcept>
+#include <string>
 #include <utility>
 
 namespace oneac {
 namespace {
 
+using internal::Candidate;
+
 constexpr double kDegree = 3.14159265358979323846 / 180.0;
-// Hypotheses remembered before they are thinned to distinct modes: near-copies of the best one
-// crowd the top, one per good correspondence and pitch.
-constexpr std::size_t kShortList = 2000;
+// Hypotheses scored on all points before they are thinned to distinct modes: near-copies of the
+// best one crowd the top.
+constexpr std::size_t kShortList = 128;
 // Width of the first polishing pass against the second: reaches from the sweep's half step, about
 // two pixels, into the basin.
 constexpr double kWideLoss = 3.0;
-constexpr int kWideIterations = 6;
+constexpr int kWideIterations = 4;
+constexpr int kNarrowIterations = 6;
+// Steps of the first passes need not be finer than the last pass [rad].
+constexpr double kCoarseStep = 1e-5;
 
-struct Scored {
-  RelativePose pose;
-  double cost;
+/// The correspondences in every form that the stages need.
+struct Problem {
+  AcSpan acs;
+  const Eigen::Matrix3d& R_level_cam;
+  double threshold;  ///< [-] normalised
+  const ConsensusOptions& options;
+  PointSet points;  ///< all of them
+  PointSet sample;  ///< evenly spaced ones, for the first polishing pass
 };
 
-/// Keeps the best hypotheses seen, and the cost that a new one has to beat.
-class ShortList {
- public:
-  explicit ShortList(double worst_cost) : bar_(worst_cost) {}
+// Point pairs of the first polishing pass: with 80 % outliers still forty that the motion explains.
+constexpr std::size_t kWideSample = 192;
 
-  [[nodiscard]] double bar() const { return bar_; }
-
-  void offer(const RelativePose& pose, double cost) {
-    if (!(cost < bar_)) return;
-    entries_.push_back({pose, cost});
-    if (entries_.size() >= 2 * kShortList) shrink();
-  }
-
-  /// Best first; equals in the order they came.
-  [[nodiscard]] const std::vector<Scored>& sorted() {
-    sort();
-    return entries_;
-  }
-
- private:
-  void sort() {
-    std::stable_sort(entries_.begin(), entries_.end(),
-                     [](const Scored& a, const Scored& b) { return a.cost < b.cost; });
-  }
-  void shrink() {
-    sort();
-    entries_.resize(kShortList);
-    bar_ = entries_.back().cost;
-  }
-
-  std::vector<Scored> entries_;
-  double bar_;
-};
-
-/// Directions of t are compared without their sign: it is decided at the end.
-bool same_mode(const RelativePose& a, const RelativePose& b, const ConsensusOptions& options) {
-  return rotation_error(a.R, b.R) < options.mode_rotation_deg * kDegree &&
-         normal_error(a.t, b.t) < options.mode_direction_deg * kDegree;
+PointSet evenly_spaced(AcSpan acs, std::size_t count) {
+  if (acs.size() <= count) return PointSet(acs);
+  std::vector<AffineCorrespondence> some(count);
+  for (std::size_t k = 0; k < count; ++k) some[k] = acs[k * acs.size() / count];
+  return PointSet(some);
 }
 
-std::vector<RelativePose> distinct_modes(const std::vector<Scored>& sorted,
-                                         const ConsensusOptions& options) {
-  std::vector<RelativePose> modes;
-  for (const Scored& candidate : sorted) {
+double cost_of(const RelativePose& pose, const PointSet& points, double threshold, double give_up) {
+  return msac_cost(essential_matrix(pose), points, threshold, give_up);
+}
+
+bool cheaper(const Candidate& a, const Candidate& b) {
+  return a.cost < b.cost;
+}
+
+/// Directions of t are compared without their sign: it is decided at the end.
+bool same_mode(const RelativePose& a, const RelativePose& b, double cos_rotation,
+               double cos_direction) {
+  const double trace = (a.R.array() * b.R.array()).sum();
+  return 0.5 * (trace - 1.0) > cos_rotation && std::abs(a.t.dot(b.t)) > cos_direction;
+}
+
+/// The best of each basin, at most `modes`. @param sorted  best first
+std::vector<Candidate> distinct_modes(const std::vector<Candidate>& sorted,
+                                      const ConsensusOptions& options) {
+  const double cos_rotation = std::cos(options.mode_rotation_deg * kDegree);
+  const double cos_direction = std::cos(options.mode_direction_deg * kDegree);
+  std::vector<Candidate> modes;
+  for (const Candidate& candidate : sorted) {
     if (modes.size() >= static_cast<std::size_t>(options.modes)) break;
-    const bool known = std::any_of(modes.begin(), modes.end(), [&](const RelativePose& mode) {
-      return same_mode(mode, candidate.pose, options);
+    const bool known = std::any_of(modes.begin(), modes.end(), [&](const Candidate& mode) {
+      return same_mode(mode.pose, candidate.pose, cos_rotation, cos_direction);
     });
-    if (!known) modes.push_back({candidate.pose.R, candidate.pose.t.normalized()});
+    if (!known) modes.push_back(candidate);
   }
   return modes;
 }
 
-RelativePose polish_twice(const RelativePose& mode, AcSpan acs, double threshold) {
-  const PolishResult wide = polish(mode, acs, {kWideLoss * threshold, kWideIterations});
-  return polish(wide.pose, acs, {threshold, PolishOptions{}.max_iterations}).pose;
-}
-
-/// t or −t, whichever puts more inliers before both cameras.
-RelativePose with_forward_sign(const RelativePose& pose, AcSpan acs,
-                               const std::vector<bool>& inliers) {
-  int votes = 0;
-  for (std::size_t i = 0; i < acs.size(); ++i) {
-    if (inliers[i]) votes += cheirality(pose, acs[i].x1, acs[i].x2);
+/// Polishes each candidate in single precision, scores it on all points and sorts.
+void polish_all(std::vector<Candidate>& candidates, const Problem& p, const PointSet& points,
+                double scale, int iterations) {
+  for (Candidate& c : candidates) {
+    c.pose = polish_coarsely(c.pose, points, {scale, iterations, kCoarseStep}).pose;
+    c.cost = cost_of(c.pose, p.points, p.threshold, std::numeric_limits<double>::infinity());
   }
-  return votes < 0 ? RelativePose{pose.R, -pose.t} : pose;
+  std::stable_sort(candidates.begin(), candidates.end(), cheaper);
 }
 
-/// Most of the points must be explained for the camera to have stood; the rest may be traffic.
-constexpr double kStandingShare = 0.8;
-
-double median(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
-
-/// The answer of a camera that did not travel: still, or rocking on its suspension (R ≠ I, t = 0).
-/// Empty when neither explains the points.
-std::optional<RobustResult> standing(AcSpan acs, double threshold, double standing_shift) {
-  const Eigen::Matrix3d still = Eigen::Matrix3d::Identity();
-  std::vector<double> errors = rotation_transfer_errors(still, acs);
-  RobustResult result;
-  if (median(errors) >= standing_shift) {
-    result.pose.R = fit_rotation(acs, threshold);
-    errors = rotation_transfer_errors(result.pose.R, acs);
-    if (median(errors) >= standing_shift) return std::nullopt;
+/// The best pose after polishing. Empty when no correspondence gave a hypothesis.
+std::vector<Candidate> ranked_modes(const Problem& p, RobustStatistics& statistics) {
+  internal::SearchResult found =
+      internal::search_poses(p.acs, p.R_level_cam, p.threshold, kShortList, p.options);
+  statistics.iterations = found.solved;
+  statistics.hypotheses = found.hypotheses;
+  for (Candidate& c : found.best) {
+    c.cost =
+        cost_of(c.pose, p.points, kWideLoss * p.threshold, std::numeric_limits<double>::infinity());
   }
-  for (double error : errors) result.inliers.push_back(error <= threshold);
-  result.inlier_count =
-      static_cast<std::size_t>(std::count(result.inliers.begin(), result.inliers.end(), true));
-  const double needed = kStandingShare * static_cast<double>(acs.size());
-  if (static_cast<double>(result.inlier_count) < needed) return std::nullopt;
-  result.status = PoseStatus::kNoMotion;
-  return result;
+  std::stable_sort(found.best.begin(), found.best.end(), cheaper);
+  std::vector<Candidate> modes = distinct_modes(found.best, p.options);
+  statistics.local_optimisations = modes.size();
+  polish_all(modes, p, p.sample, kWideLoss * p.threshold, kWideIterations);
+  modes.resize(std::min(modes.size(), static_cast<std::size_t>(p.options.finalists)));
+  polish_all(modes, p, p.points, p.threshold, kNarrowIterations);
+  return modes;
 }
 
 /// The consensus of correspondences that are all finite.
 RobustResult consensus_of_finite(AcSpan acs, const Eigen::Matrix3d& R_level_cam, double focal_px,
-                                    const ConsensusOptions& options) {
+                                 const ConsensusOptions& options) {
   RobustResult result;
   result.inliers.assign(acs.size(), false);
   if (acs.size() < static_cast<std::size_t>(options.min_inliers)) return result;
-  const double threshold = options.threshold_px / focal_px;
-  if (auto stood = standing(acs, threshold, options.standing_px / focal_px)) return *stood;
+  const Problem p{acs,     R_level_cam,   options.threshold_px / focal_px,
+                  options, PointSet(acs), evenly_spaced(acs, kWideSample)};
+  const DegeneracyBounds bounds{p.threshold, options.standing_px / focal_px};
+  if (auto stood = standing(acs, bounds)) return *stood;
 
-  const PointSet points(acs);
-  ShortList best(static_cast<double>(acs.size()));
-  std::size_t scored = 0;
-  const auto score = [&](const RelativePose& pose) {
-    ++scored;
-    best.offer(pose, msac_cost(essential_matrix(pose), points, threshold, best.bar()));
-  };
-  for (double pitch :
-       pitch_sweep(options.pitch_sweep_deg * kDegree, options.pitch_step_deg * kDegree)) {
-    planar_hypotheses(acs, R_level_cam, pitch, {options.ground, options.planar}, score);
+  const std::vector<Candidate> modes = ranked_modes(p, result.statistics);
+  if (modes.empty()) return result;
+  if (auto turned = turning(acs, modes.front().pose.R, bounds)) {
+    turned->statistics = result.statistics;
+    return *turned;
   }
-
-  result.statistics.hypotheses = scored;
-  result.cost = std::numeric_limits<double>::infinity();
-  for (const RelativePose& mode : distinct_modes(best.sorted(), options)) {
-    const RelativePose polished = polish_twice(mode, acs, threshold);
-    const double cost = msac_cost(essential_matrix(polished), points, threshold, result.cost);
-    if (!(cost < result.cost)) continue;
-    result.cost = cost;
-    result.pose = polished;
-  }
-  if (!std::isfinite(result.cost)) return result;
-  result.inliers = sampson_inliers(essential_matrix(result.pose), acs, threshold);
-  result.inlier_count =
-      static_cast<std::size_t>(std::count(result.inliers.begin(), result.inliers.end(), true));
+  conclude(modes.front().pose, acs, p.threshold, result);
   if (result.inlier_count < static_cast<std::size_t>(options.min_inliers)) {
     result.pose = {};
+    result.covariance.setZero();
     return result;
   }
-  result.pose = with_forward_sign(result.pose, acs, result.inliers);
   result.status = PoseStatus::kOk;
+  settle_one_plane(acs, R_level_cam, p.threshold, result);
   return result;
 }
 
@@ -182,11 +151,17 @@ void require(bool good, const char* field, double value, const char* bound) {
 }  // namespace
 
 void ConsensusOptions::validate() const {
-  require(ground || planar, "ground", 0, "true when consensus.planar is false");
+  require(ground || planar || side_wall || front_wall || wall, "ground", 0,
+          "true when no other solver is on");
   require(threshold_px > 0.0, "threshold_px", threshold_px, "positive");
   require(pitch_sweep_deg >= 0.0 && pitch_sweep_deg <= 10.0, "pitch_sweep_deg", pitch_sweep_deg,
           "from 0 to 10");
   require(pitch_step_deg > 0.0, "pitch_step_deg", pitch_step_deg, "positive");
+  require(roll_sweep_deg >= 0.0 && roll_sweep_deg <= 10.0, "roll_sweep_deg", roll_sweep_deg,
+          "from 0 to 10");
+  require(roll_step_deg > 0.0, "roll_step_deg", roll_step_deg, "positive");
+  require(minimal_problems >= 1, "minimal_problems", minimal_problems, "at least 1");
+  require(finalists >= 1, "finalists", finalists, "at least 1");
   require(modes >= 1, "modes", modes, "at least 1");
   require(mode_rotation_deg >= 0.0, "mode_rotation_deg", mode_rotation_deg, "at least 0");
   require(mode_direction_deg >= 0.0, "mode_direction_deg", mode_direction_deg, "at least 0");
@@ -195,7 +170,7 @@ void ConsensusOptions::validate() const {
 }
 
 RobustResult one_ac_consensus(AcSpan acs, const Eigen::Matrix3d& R_level_cam, double focal_px,
-                                 const ConsensusOptions& options) {
+                              const ConsensusOptions& options) {
   std::vector<AffineCorrespondence> finite;
   finite.reserve(acs.size());
   std::copy_if(acs.begin(), acs.end(), std::back_inserter(finite),

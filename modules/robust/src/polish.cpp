@@ -1,23 +1,99 @@
 #include "oneac/robust/polish.h"
 
-#include "oneac/geometry/essential.h"
+#include "point_arrays.h"
 
 #include <Eigen/Dense>
-
-#include <cmath>
 
 namespace oneac {
 namespace {
 
 using Vector5 = Eigen::Matrix<double, 5, 1>;
 using Matrix5 = Eigen::Matrix<double, 5, 5>;
-using Matrix95 = Eigen::Matrix<double, 9, 5>;
 
-constexpr double kConverged = 1e-9;  // [rad] steps below it change nothing that images could show
 constexpr double kFirstDamping = 1e-4;  // of the diagonal; ordinary LM start
+constexpr double kLastDamping = 1e6;    // steps so short that nothing is left to gain
+// Relative decrease of the cost below which another step is not worth its time.
+constexpr double kSmallestGain = 1e-9;
 
-/// An orthonormal basis of the plane perpendicular to the unit vector t, continuous in t but for a
-/// switch of axis.
+void sums(const internal::ConsensusKernels& kernels, const internal::PoseNumbers<float>& pose,
+          const PointSet& points, float squared_scale, internal::NormalSums<float>& out) {
+  kernels.normal_sums(pose, internal::arrays_of(points), squared_scale, out);
+}
+
+void sums(const internal::ConsensusKernels& kernels, const internal::PoseNumbers<double>& pose,
+          const PrecisePointSet& points, double squared_scale, internal::NormalSums<double>& out) {
+  kernels.normal_sums_double(pose, internal::arrays_of(points), squared_scale, out);
+}
+
+template <class Number>
+internal::PoseNumbers<Number> numbers_of(const RelativePose& pose) {
+  internal::PoseNumbers<Number> numbers;
+  const Eigen::Matrix<double, 3, 2> T = tangent_basis(pose.t);
+  for (int i = 0; i < 9; ++i) numbers.R[i] = static_cast<Number>(pose.R(i / 3, i % 3));
+  for (int i = 0; i < 3; ++i) {
+    numbers.t[i] = static_cast<Number>(pose.t(i));
+    numbers.T1[i] = static_cast<Number>(T(i, 0));
+    numbers.T2[i] = static_cast<Number>(T(i, 1));
+  }
+  return numbers;
+}
+
+struct NormalEquations {
+  Matrix5 H;
+  Vector5 g;
+  double cost = 0.0;
+};
+
+template <class Number>
+NormalEquations build(const internal::ConsensusKernels& kernels, const RelativePose& pose,
+                      const BasicPointSet<Number>& points, double scale) {
+  internal::NormalSums<Number> out;
+  sums(kernels, numbers_of<Number>(pose), points, static_cast<Number>(scale * scale), out);
+  NormalEquations n;
+  n.cost = static_cast<double>(out.cost);
+  for (int k = 0, entry = 0; k < 5; ++k) {
+    n.g(k) = static_cast<double>(out.g[k]);
+    for (int l = k; l < 5; ++l, ++entry) {
+      n.H(k, l) = n.H(l, k) = static_cast<double>(out.H[entry]);
+    }
+  }
+  return n;
+}
+
+template <class Number>
+PolishResult levenberg_marquardt(const RelativePose& start, const BasicPointSet<Number>& points,
+                                 const PolishOptions& options) {
+  const auto& kernels = internal::consensus_kernels(best_simd_level());
+  PolishResult result;
+  result.pose = {start.R, start.t.normalized()};
+  NormalEquations now = build(kernels, result.pose, points, options.threshold);
+  double damping = kFirstDamping;
+  for (; result.iterations < options.max_iterations; ++result.iterations) {
+    Matrix5 H = now.H;
+    H.diagonal() += damping * now.H.diagonal() + Vector5::Constant(1e-12);
+    const Vector5 step = -H.ldlt().solve(now.g);
+    if (!step.allFinite()) break;
+    const RelativePose candidate = retract(result.pose, step);
+    const NormalEquations next = build(kernels, candidate, points, options.threshold);
+    if (next.cost < now.cost) {
+      const bool converged =
+          step.norm() < options.converged || now.cost - next.cost < kSmallestGain * now.cost;
+      result.pose = candidate;
+      now = next;
+      damping *= 0.1;
+      if (converged) break;
+    } else {
+      damping *= 10.0;
+      if (damping > kLastDamping || step.norm() < options.converged) break;
+    }
+  }
+  result.cost = now.cost;
+  result.information = now.H * (options.threshold * options.threshold);
+  return result;
+}
+
+}  // namespace
+
 Eigen::Matrix<double, 3, 2> tangent_basis(const Eigen::Vector3d& t) {
   Eigen::Index smallest = 0;
   t.cwiseAbs().minCoeff(&smallest);
@@ -25,90 +101,6 @@ Eigen::Matrix<double, 3, 2> tangent_basis(const Eigen::Vector3d& t) {
   T.col(0) = t.cross(Eigen::Vector3d::Unit(smallest)).normalized();
   T.col(1) = t.cross(T.col(0));
   return T;
-}
-
-/// E (row-major in nine numbers) and its derivative with respect to the five parameters.
-struct Linearisation {
-  Eigen::Matrix3d E;
-  Matrix95 dE;  // row 3 i + j: derivative of E(i, j)
-
-  explicit Linearisation(const RelativePose& pose) : E(essential_matrix(pose)) {
-    const Eigen::Matrix<double, 3, 2> T = tangent_basis(pose.t);
-    const Eigen::Matrix3d tx = cross_matrix(pose.t);
-    for (int k = 0; k < 3; ++k) {
-      set_column(k, tx * cross_matrix(Eigen::Vector3d::Unit(k)) * pose.R);
-    }
-    for (int k = 0; k < 2; ++k) set_column(3 + k, cross_matrix(T.col(k)) * pose.R);
-  }
-
- private:
-  void set_column(int column, const Eigen::Matrix3d& derivative) {
-    for (int i = 0; i < 9; ++i) dE(i, column) = derivative(i / 3, i % 3);
-  }
-};
-
-SampsonJacobian evaluate(const Linearisation& l, const Eigen::Vector2d& x1,
-                         const Eigen::Vector2d& x2) {
-  const Eigen::Vector3d p(x1.x(), x1.y(), 1.0);
-  const Eigen::Vector3d q(x2.x(), x2.y(), 1.0);
-  const Eigen::Vector3d Ep = l.E * p;
-  const Eigen::Vector3d Etq = l.E.transpose() * q;
-  const double gradient = Ep.head<2>().squaredNorm() + Etq.head<2>().squaredNorm();
-  if (!(gradient > 0.0)) return {};
-  const double inverse_root = 1.0 / std::sqrt(gradient);
-  const double r = q.dot(Ep) * inverse_root;
-  // dr/dE = (q pᵀ − r/√g · ([Ep]₁₂ pᵀ + q [Eᵀq]₁₂ᵀ)) / √g
-  const double k = r * inverse_root;
-  const Eigen::Vector3d left = q - k * Eigen::Vector3d(Ep.x(), Ep.y(), 0.0);
-  Eigen::Matrix<double, 1, 9> drdE;
-  for (int i = 0; i < 3; ++i) {
-    drdE(3 * i) = (left(i) * p.x() - k * q(i) * Etq.x()) * inverse_root;
-    drdE(3 * i + 1) = (left(i) * p.y() - k * q(i) * Etq.y()) * inverse_root;
-    drdE(3 * i + 2) = left(i) * inverse_root;
-  }
-  SampsonJacobian out;
-  out.r = r;
-  out.J = drdE * l.dE;
-  return out;
-}
-
-struct NormalEquations {
-  Matrix5 H = Matrix5::Zero();
-  Vector5 g = Vector5::Zero();
-  double cost = 0.0;
-};
-
-NormalEquations build(const RelativePose& pose, AcSpan acs, double scale) {
-  const Linearisation linearisation(pose);
-  const double s2 = scale * scale;
-  NormalEquations n;
-  for (const AffineCorrespondence& ac : acs) {
-    const SampsonJacobian e = evaluate(linearisation, ac.x1, ac.x2);
-    const double r2 = e.r * e.r;
-    const double sum = r2 + s2;
-    n.cost += r2 / sum;
-    const double weight = s2 / (sum * sum);  // ρ'(r) / (2 r)
-    n.H.noalias() += weight * e.J.transpose() * e.J;
-    n.g.noalias() += weight * e.r * e.J.transpose();
-  }
-  return n;
-}
-
-double cost_only(const RelativePose& pose, AcSpan acs, double scale) {
-  const Eigen::Matrix3d E = essential_matrix(pose);
-  double cost = 0.0;
-  for (const AffineCorrespondence& ac : acs) {
-    const double r = sampson_distance(E, ac.x1, ac.x2);
-    cost += r * r / (r * r + scale * scale);
-  }
-  return cost;
-}
-
-}  // namespace
-
-SampsonJacobian sampson_jacobian(const RelativePose& pose, const Eigen::Vector2d& x1,
-                                 const Eigen::Vector2d& x2) {
-  return evaluate(Linearisation(pose), x1, x2);
 }
 
 RelativePose retract(const RelativePose& pose, const Vector5& step) {
@@ -119,31 +111,17 @@ RelativePose retract(const RelativePose& pose, const Vector5& step) {
 }
 
 PolishResult polish(const RelativePose& start, AcSpan acs, const PolishOptions& options) {
-  PolishResult result;
-  result.pose = {start.R, start.t.normalized()};
-  NormalEquations n = build(result.pose, acs, options.threshold);
-  result.cost = n.cost;
-  double damping = kFirstDamping;
-  for (; result.iterations < options.max_iterations; ++result.iterations) {
-    Matrix5 H = n.H;
-    H.diagonal() += damping * n.H.diagonal() + Vector5::Constant(1e-12);
-    const Vector5 step = -H.ldlt().solve(n.g);
-    if (!step.allFinite()) break;
-    const RelativePose candidate = retract(result.pose, step);
-    const double cost = cost_only(candidate, acs, options.threshold);
-    if (cost < result.cost) {
-      result.pose = candidate;
-      damping *= 0.1;
-      const bool converged = step.norm() < kConverged || result.cost - cost < 1e-9 * result.cost;
-      result.cost = cost;
-      if (converged) break;
-      n = build(result.pose, acs, options.threshold);
-    } else {
-      damping *= 10.0;
-      if (damping > 1e6) break;
-    }
-  }
-  return result;
+  return levenberg_marquardt(start, PrecisePointSet(acs), options);
+}
+
+PolishResult polish(const RelativePose& start, const PrecisePointSet& points,
+                    const PolishOptions& options) {
+  return levenberg_marquardt(start, points, options);
+}
+
+PolishResult polish_coarsely(const RelativePose& start, const PointSet& points,
+                             const PolishOptions& options) {
+  return levenberg_marquardt(start, points, options);
 }
 
 }  // namespace oneac

@@ -14,10 +14,19 @@ constexpr double kFirstScale =
     16.0;  // of the threshold: reaches 16 px of turning between two frames
 constexpr int kIterationsPerScale = 3;
 
-/// One reweighted Gauss–Newton step of R ← exp([w]×) R.
-Eigen::Vector3d rotation_step(const Eigen::Matrix3d& R, AcSpan acs, double scale) {
-  Eigen::Matrix3d H = 1e-12 * Eigen::Matrix3d::Identity();
-  Eigen::Vector3d g = Eigen::Vector3d::Zero();
+// Scales of refine_rotation: it starts within a few thresholds.
+constexpr double kNearScale = 4.0;
+
+struct RotationEquations {
+  Eigen::Matrix3d H = 1e-12 * Eigen::Matrix3d::Identity();  ///< Σ ω JᵀJ
+  Eigen::Vector3d g = Eigen::Vector3d::Zero();              ///< Σ ω Jᵀr
+  double weighted_square = 0.0;                             ///< Σ ω |r|²
+  double weight = 0.0;                                      ///< Σ ω
+};
+
+/// Normal equations of R ← exp([w]×) R, weights of the Geman–McClure loss, 1 for a perfect point.
+RotationEquations equations(const Eigen::Matrix3d& R, AcSpan acs, double scale) {
+  RotationEquations e;
   for (const AffineCorrespondence& ac : acs) {
     const Eigen::Vector3d y = R * ac.x1.homogeneous();
     if (!(y.z() > 1e-6)) continue;
@@ -26,26 +35,44 @@ Eigen::Vector3d rotation_step(const Eigen::Matrix3d& R, AcSpan acs, double scale
     Eigen::Matrix<double, 2, 3> J;  // ∂π(exp([w]×) y)/∂w at w = 0
     J << -u * v, 1.0 + u * u, -v, -1.0 - v * v, u * v, u;
     const Eigen::Vector2d r = Eigen::Vector2d(u, v) - ac.x2;
-    const double sum = r.squaredNorm() + scale * scale;
-    const double weight = scale * scale / (sum * sum);
-    H += weight * J.transpose() * J;
-    g += weight * J.transpose() * r;
+    const double share = scale * scale / (r.squaredNorm() + scale * scale);
+    const double weight = share * share;
+    e.H += weight * J.transpose() * J;
+    e.g += weight * J.transpose() * r;
+    e.weighted_square += weight * r.squaredNorm();
+    e.weight += weight;
   }
-  return -H.ldlt().solve(g);
+  return e;
 }
 
-}  // namespace
-
-Eigen::Matrix3d fit_rotation(AcSpan acs, double threshold) {
-  Eigen::Matrix3d R = Eigen::Matrix3d::Identity();
-  for (double scale = kFirstScale; scale >= 1.0; scale /= 2.0) {
+/// Steps at scales first, first/2, … 1 threshold.
+Eigen::Matrix3d descend(Eigen::Matrix3d R, AcSpan acs, double threshold, double first_scale) {
+  for (double scale = first_scale; scale >= 1.0; scale /= 2.0) {
     for (int i = 0; i < kIterationsPerScale; ++i) {
-      const Eigen::Vector3d step = rotation_step(R, acs, scale * threshold);
+      const RotationEquations e = equations(R, acs, scale * threshold);
+      const Eigen::Vector3d step = -e.H.ldlt().solve(e.g);
       if (!step.allFinite()) return R;
       R = rotation_from_vector(step) * R;
     }
   }
   return R;
+}
+
+}  // namespace
+
+Eigen::Matrix3d fit_rotation(AcSpan acs, double threshold) {
+  return descend(Eigen::Matrix3d::Identity(), acs, threshold, kFirstScale);
+}
+
+RotationFit refine_rotation(const Eigen::Matrix3d& start, AcSpan acs, double threshold) {
+  RotationFit fit;
+  fit.R = descend(start, acs, threshold, kNearScale);
+  const RotationEquations e = equations(fit.R, acs, threshold);
+  if (!(e.weight > 0.0)) return fit;
+  const double variance = e.weighted_square / (2.0 * e.weight);  // of one coordinate
+  const Eigen::Matrix3d covariance = variance * e.H.ldlt().solve(Eigen::Matrix3d::Identity());
+  if (covariance.allFinite()) fit.covariance = covariance;
+  return fit;
 }
 
 std::vector<double> rotation_transfer_errors(const Eigen::Matrix3d& R, AcSpan acs) {

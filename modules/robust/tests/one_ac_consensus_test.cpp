@@ -7,6 +7,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <stdexcept>
 
 namespace oneac {
@@ -86,7 +87,7 @@ TEST(OneAcConsensus, ReportsARockingCameraAsRotationWithoutTranslation) {
     if (i % 10 == 0) acs.back().x2 = scene.image_point();  // traffic
   }
   const RobustResult result = one_ac_consensus(acs, kLevel, kFocal, {});
-  EXPECT_EQ(result.status, PoseStatus::kNoMotion);
+  EXPECT_EQ(result.status, PoseStatus::kPureRotation);
   EXPECT_EQ(result.pose.t.norm(), 0.0);
   EXPECT_LT(rotation_error(result.pose.R, T.R), 0.01 * kDegree);
 }
@@ -123,6 +124,66 @@ TEST(OneAcConsensus, SurvivesCorrespondencesThatAreNotFinite) {
   expect_close(result, T, 0);
   EXPECT_FALSE(result.inliers[7]);
   EXPECT_FALSE(result.inliers[9]);
+}
+
+TEST(OneAcConsensus, RecognisesATurnOnTheSpot) {
+  SceneGenerator scene(30);
+  const RelativePose T{yaw_rotation(std::cos(0.15), std::sin(0.15)), Eigen::Vector3d::Zero()};
+  std::vector<AffineCorrespondence> acs;
+  for (int i = 0; i < 150; ++i) {
+    acs.push_back(scene.with_noise(scene.on_plane(T, scene.any_plane()), 0.15 / kFocal, 0.01));
+  }
+  const RobustResult result = one_ac_consensus(acs, kLevel, kFocal, {});
+  EXPECT_EQ(result.status, PoseStatus::kPureRotation);
+  EXPECT_LT(rotation_error(result.pose.R, T.R), 0.02 * kDegree);
+  EXPECT_GT(result.covariance(1, 1), 0.0);
+}
+
+TEST(OneAcConsensus, SaysWhenEverythingLiesOnOnePlaneAndTakesTheVehiclesMotion) {
+  SceneGenerator scene(31);
+  for (int trial = 0; trial < 10; ++trial) {
+    const RelativePose T = scene.planar_motion();
+    const Plane ground = scene.ground();
+    std::vector<AffineCorrespondence> acs;
+    for (int i = 0; i < 200; ++i) {
+      acs.push_back(scene.with_noise(scene.on_plane(T, ground), 0.1 / kFocal, 0.01));
+    }
+    const RobustResult result = one_ac_consensus(acs, kLevel, kFocal, {});
+    EXPECT_EQ(result.status, PoseStatus::kOnePlane) << "trial " << trial;
+    EXPECT_LT(rotation_error(result.pose.R, T.R), 0.5 * kDegree) << "trial " << trial;
+    EXPECT_LT(direction_error(result.pose.t, T.t), 5.0 * kDegree) << "trial " << trial;
+  }
+}
+
+TEST(OneAcConsensus, CoversRollAndPitchTogetherAmongOutliers) {
+  SceneGenerator scene(32);
+  for (int trial = 0; trial < 10; ++trial) {
+    RelativePose T = scene.planar_motion();
+    T.R = roll_rotation(scene.uniform(-1.5, 1.5) * kDegree) *
+          pitch_rotation(scene.uniform(-2.5, 2.5) * kDegree) * T.R;
+    expect_close(one_ac_consensus(street(scene, T, 50), kLevel, kFocal, {}), T, trial);
+  }
+}
+
+TEST(OneAcConsensus, CovarianceMatchesTheScatterOfItsErrors) {
+  SceneGenerator scene(33);
+  RelativePose T = scene.planar_motion();
+  T.t.normalize();
+  double squared = 0.0;
+  constexpr int kTrials = 100;
+  for (int trial = 0; trial < kTrials; ++trial) {
+    const RobustResult result = one_ac_consensus(street(scene, T, 10), kLevel, kFocal, {});
+    ASSERT_EQ(result.status, PoseStatus::kOk);
+    EXPECT_NEAR((result.covariance.bottomRightCorner<3, 3>() * result.pose.t).norm(), 0.0, 1e-12);
+    const Eigen::Matrix3d dR = T.R * result.pose.R.transpose();
+    const Eigen::Vector3d w =
+        0.5 * Eigen::Vector3d(dR(2, 1) - dR(1, 2), dR(0, 2) - dR(2, 0), dR(1, 0) - dR(0, 1));
+    const Eigen::Matrix3d R_covariance = result.covariance.topLeftCorner<3, 3>();
+    squared += w.dot(R_covariance.inverse() * w) / 3.0;
+  }
+  // Mean squared normalised error: 1 for an honest covariance; outliers near the lines add a bit.
+  EXPECT_GT(squared / kTrials, 0.4);
+  EXPECT_LT(squared / kTrials, 2.5);
 }
 
 TEST(ConsensusOptions, NameFieldValueAndBound) {

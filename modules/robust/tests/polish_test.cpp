@@ -22,21 +22,48 @@ std::vector<AffineCorrespondence> noisy_scene(SceneGenerator& scene, const Relat
   return acs;
 }
 
-TEST(SampsonJacobian, EqualsCentralDifferences) {
+/// Σ ρ at a pose.
+double cost_at(const RelativePose& pose, const std::vector<AffineCorrespondence>& acs,
+               double scale) {
+  double cost = 0.0;
+  for (const AffineCorrespondence& ac : acs) {
+    const double r = sampson_distance(essential_matrix(pose), ac.x1, ac.x2);
+    cost += r * r / (r * r + scale * scale);
+  }
+  return cost;
+}
+
+TEST(Polish, StopsWhereItsCostIsFlat) {
   SceneGenerator scene(11);
-  for (int trial = 0; trial < 100; ++trial) {
+  constexpr double kScale = 1e-2;
+  for (int trial = 0; trial < 20; ++trial) {
     RelativePose T = scene.general_motion();
     T.t.normalize();
-    const AffineCorrespondence ac =
-        scene.with_noise(scene.on_plane(T, scene.any_plane()), 1e-2, 0.0);
-    const SampsonJacobian analytic = sampson_jacobian(T, ac.x1, ac.x2);
+    const auto acs = noisy_scene(scene, T, 5e-3);  // residuals that no approximation survives
+    const PolishResult result = polish(T, acs, {kScale, 100, 1e-12});
+    EXPECT_NEAR(result.cost, cost_at(result.pose, acs, kScale), 1e-9 * result.cost);
     for (int k = 0; k < 5; ++k) {
-      const double h = 1e-6;
+      const double h = 1e-5;
       const Eigen::Matrix<double, 5, 1> step = Eigen::Matrix<double, 5, 1>::Unit(k) * h;
-      const double plus = sampson_distance(essential_matrix(retract(T, step)), ac.x1, ac.x2);
-      const double minus = sampson_distance(essential_matrix(retract(T, -step)), ac.x1, ac.x2);
-      EXPECT_NEAR(analytic.J(k), (plus - minus) / (2.0 * h), 1e-6) << "trial " << trial;
+      const double plus = cost_at(retract(result.pose, step), acs, kScale);
+      const double minus = cost_at(retract(result.pose, -step), acs, kScale);
+      const double curvature = (plus + minus - 2.0 * result.cost) / (h * h);
+      // The slope as a distance from the minimum [rad].
+      EXPECT_LT(std::abs(plus - minus) / (2.0 * h), 1e-6 * curvature) << "trial " << trial;
     }
+  }
+}
+
+TEST(Polish, InSinglePrecisionEndsBesideTheDoubleOne) {
+  SceneGenerator scene(16);
+  for (int trial = 0; trial < 20; ++trial) {
+    RelativePose T = scene.general_motion();
+    T.t.normalize();
+    const auto acs = noisy_scene(scene, T, 5e-4);
+    const PolishResult exact = polish(T, acs, {2e-3, 50});
+    const PolishResult coarse = polish_coarsely(T, PointSet(acs), {2e-3, 50, 1e-6});
+    EXPECT_LT(rotation_error(coarse.pose.R, exact.pose.R), 1e-4) << "trial " << trial;
+    EXPECT_LT(direction_error(coarse.pose.t, exact.pose.t), 1e-3) << "trial " << trial;
   }
 }
 

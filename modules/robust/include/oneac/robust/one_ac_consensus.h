@@ -13,13 +13,22 @@ namespace oneac {
 struct ConsensusOptions {
   bool ground = true;         ///< hypotheses of the ground solver
   bool planar = true;         ///< hypotheses of the plane-free planar solver
+  bool side_wall = false;     ///< hypotheses of the solver for walls along the road
+  bool front_wall = false;    ///< hypotheses of the solver for walls across the road
+  bool wall = false;          ///< hypotheses of the solver for any wall
   double threshold_px = 1.0;  ///< [px] Sampson inlier bound; DoG points repeat to 0.3…0.5 px (1σ)
   double pitch_sweep_deg =
-      1.8;  ///< [deg] relative pitch covered each way; the suspension gives up to this
-  double pitch_step_deg = 0.3;  ///< [deg] at f = 700 px 3.7 px: within the basin of the polishing
-  int modes = 16;               ///< distinct hypotheses that are polished; reason in docs/decisions
+      2.4;  ///< [deg] relative pitch covered each way; the suspension gives up to this
+  double pitch_step_deg = 0.6;  ///< [deg] at f = 700 px 7 px, half of it to the nearest step:
+                                ///< within the basin of the first polishing pass
+  double roll_sweep_deg = 0.0;  ///< [deg] relative roll covered each way
+  double roll_step_deg = 1.0;   ///< [deg]
+  int minimal_problems = 1500;  ///< per solver, over all relative pitches; more correspondences are
+                                ///< dealt to the pitches in turn
+  int modes = 40;               ///< distinct hypotheses that are polished; reason in docs/decisions
   double mode_rotation_deg = 0.2;   ///< [deg] modes closer than both are one
   double mode_direction_deg = 8.0;  ///< [deg] polishing comes back from farther
+  int finalists = 5;                ///< modes that are polished to the end
   int min_inliers = 15;             ///< fewer support nothing: five unknowns, three times over
   double standing_px =
       0.35;  ///< [px] median shift beside a rotation that is noise: the camera stands
@@ -31,25 +40,34 @@ template <class Visitor>
 void describe(Visitor&& visit, ConsensusOptions& o) {
   visit("ground", o.ground, "bool", "hypotheses of the ground solver");
   visit("planar", o.planar, "bool", "hypotheses of the plane-free planar solver");
+  visit("side_wall", o.side_wall, "bool", "hypotheses of the solver for walls along the road");
+  visit("front_wall", o.front_wall, "bool", "hypotheses of the solver for walls across the road");
+  visit("wall", o.wall, "bool", "hypotheses of the solver for any wall");
   visit("threshold_px", o.threshold_px, "px", "Sampson inlier bound");
   visit("pitch_sweep_deg", o.pitch_sweep_deg, "deg", "relative pitch covered each way");
   visit("pitch_step_deg", o.pitch_step_deg, "deg", "step of the sweep");
+  visit("roll_sweep_deg", o.roll_sweep_deg, "deg", "relative roll covered each way");
+  visit("roll_step_deg", o.roll_step_deg, "deg", "step of that sweep");
+  visit("minimal_problems", o.minimal_problems, "count", "solved per solver and pair, about");
   visit("modes", o.modes, "count", "distinct hypotheses that are polished");
   visit("mode_rotation_deg", o.mode_rotation_deg, "deg", "hypotheses closer than this ...");
   visit("mode_direction_deg", o.mode_direction_deg, "deg", "... and this are one mode");
+  visit("finalists", o.finalists, "count", "modes that are polished to the end");
   visit("min_inliers", o.min_inliers, "count", "a pose with fewer is refused");
   visit("standing_px", o.standing_px, "px", "median shift, rotation removed, of a standing camera");
 }
 
 /// Relative pose from one-AC hypotheses without a random number: every correspondence is solved at
-/// every relative pitch of the sweep, every hypothesis is scored on all points (MSAC on the Sampson
-/// distance), the best few distinct ones are polished on all correspondences with five degrees of
-/// freedom, and the best after polishing wins.
+/// every relative pitch and roll of the sweep (several at a time, solvers/batch.h), every
+/// hypothesis is scored on a sample of the points and the best ones on all (MSAC on the Sampson
+/// distance), the best few distinct ones are polished with five degrees of freedom, and the best
+/// after polishing wins. Of two poses that one plane admits the one nearer to planar motion is
+/// taken.
 ///
 /// @param acs          normalised correspondences of the (tilted) camera
 /// @param R_level_cam  removes the camera's tilt (geometry/leveling.h), the same in both views
 /// @param focal_px     what turns threshold_px into normalised units [px]
 [[nodiscard]] RobustResult one_ac_consensus(AcSpan acs, const Eigen::Matrix3d& R_level_cam,
-                                               double focal_px, const ConsensusOptions& options);
+                                            double focal_px, const ConsensusOptions& options);
 
 }  // namespace oneac

@@ -8,11 +8,21 @@
 
 namespace oneac {
 
+/// A rotation that maps x1 to x2 when the camera does not translate.
+struct RotationFit {
+  Eigen::Matrix3d R = Eigen::Matrix3d::Identity();
+  Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();  ///< of w, R = exp([w]×) R̂ [rad²]
+};
+
 /// The rotation that best maps x1 to x2 when the camera does not translate, x2 ≈ π(R x1).
 ///
 /// Gauss–Newton from the identity with a Geman–McClure loss, its scale lowered to `threshold`.
 /// @param threshold  [-] normalised image units
 [[nodiscard]] Eigen::Matrix3d fit_rotation(AcSpan acs, double threshold);
+
+/// The same from a rotation within a few thresholds of the true one; with its covariance.
+[[nodiscard]] RotationFit refine_rotation(const Eigen::Matrix3d& start, AcSpan acs,
+                                          double threshold);
 
 /// |x2 − π(R x1)| of each correspondence [-]; infinity for a point that R turns behind the camera.
 [[nodiscard]] std::vector<double> rotation_transfer_errors(const Eigen::Matrix3d& R, AcSpan acs);

@@ -1,0 +1,146 @@
+#pragma once
+
+#include "consensus_kernels.h"
+#include "float_lanes.h"
+
+namespace oneac::internal {
+namespace {
+
+// Keeps 0/0 out where both epipolar lines vanish; far below any gradient of a unit translation.
+constexpr float kTinyGradient = 1e-30F;
+
+/// Hypotheses in the lanes, points one after the other.
+void planar_costs(const PlanarEssentials& hypotheses, const PointArrays<float>& points,
+                  float inverse_squared_threshold, float* cost) {
+  for (std::size_t h = 0; h < hypotheses.padded_size; h += kFloatLanes) {
+    FloatLanes e12, e21, e23, e32;
+    load(hypotheses.e12 + h, e12);
+    load(hypotheses.e21 + h, e21);
+    load(hypotheses.e23 + h, e23);
+    load(hypotheses.e32 + h, e32);
+    FloatLanes total = {};
+    for (std::size_t i = 0; i < points.padded_size; ++i) {
+      const float y1 = points.y1[i];
+      const float y2 = points.y2[i];
+      const FloatLanes f = e12 * points.x2[i] + e32;
+      const FloatLanes b = e21 * points.x1[i] + e23;
+      const FloatLanes a = e12 * y1;
+      const FloatLanes d = e21 * y2;
+      const FloatLanes algebraic = f * y1 + b * y2;
+      const FloatLanes gradient = a * a + b * b + d * d + f * f + kTinyGradient;
+      const FloatLanes ratio = algebraic * algebraic * inverse_squared_threshold / gradient;
+      total += (ratio < 1.0F ? ratio : (ratio * 0.0F + 1.0F)) * points.weight[i];
+    }
+    __builtin_memcpy(cost + h, &total, sizeof total);
+  }
+}
+
+/// Points in the lanes.
+float msac(const float* E, const PointArrays<float>& points, std::size_t first, std::size_t last,
+           float inverse_squared_threshold) {
+  FloatLanes total = {};
+  const FloatLanes one = total + 1.0F;
+  for (std::size_t i = first * kPointGroup; i < last * kPointGroup; i += kFloatLanes) {
+    FloatLanes x1, y1, x2, y2, weight;
+    load(points.x1 + i, x1);
+    load(points.y1 + i, y1);
+    load(points.x2 + i, x2);
+    load(points.y2 + i, y2);
+    load(points.weight + i, weight);
+    const FloatLanes a = E[0] * x1 + E[1] * y1 + E[2];
+    const FloatLanes b = E[3] * x1 + E[4] * y1 + E[5];
+    const FloatLanes c = E[6] * x1 + E[7] * y1 + E[8];
+    const FloatLanes d = E[0] * x2 + E[3] * y2 + E[6];
+    const FloatLanes f = E[1] * x2 + E[4] * y2 + E[7];
+    const FloatLanes algebraic = x2 * a + y2 * b + c;
+    const FloatLanes gradient = a * a + b * b + d * d + f * f + kTinyGradient;
+    const FloatLanes ratio = algebraic * algebraic * inverse_squared_threshold / gradient;
+    total += (ratio < one ? ratio : one) * weight;
+  }
+  return sum<float>(total);
+}
+
+/// Three coordinates per lane.
+template <class Lanes>
+struct Vector {
+  Lanes x, y, z;
+};
+
+template <class A, class B>
+inline auto cross(const A& a, const B& b) {
+  using Lanes = decltype(a.x * b.x);
+  return Vector<Lanes>{a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
+}
+
+/// Points in the lanes. With y = R x1 and q = x2 × t the algebraic distance x2ᵀ[t]×R x1 is q·y, its
+/// derivative y × q with respect to w and (y × x2)·T with respect to b. The squared gradient norm
+/// is |l|² + |k|² with the lines l = (t × y)₁₂ and k = (Rᵀ q)₁₂.
+template <class Number, bool kExact>
+void normal_sums(const PoseNumbers<Number>& pose, const PointArrays<Number>& points,
+                 Number squared_scale, NormalSums<Number>& out) {
+  using Lanes = typename LanesOf<Number>::Type;
+  Lanes cost = {};
+  Lanes g[5] = {};
+  Lanes H[15] = {};
+  const Number* R = pose.R;
+  const Vector<Number> t{pose.t[0], pose.t[1], pose.t[2]};
+  for (std::size_t i = 0; i < points.padded_size; i += LanesOf<Number>::kCount) {
+    Lanes x1, y1, weight;
+    Vector<Lanes> x2;
+    load(points.x1 + i, x1);
+    load(points.y1 + i, y1);
+    load(points.x2 + i, x2.x);
+    load(points.y2 + i, x2.y);
+    load(points.weight + i, weight);
+    x2.z = weight * 0 + 1;
+    const Vector<Lanes> y{R[0] * x1 + R[1] * y1 + R[2], R[3] * x1 + R[4] * y1 + R[5],
+                          R[6] * x1 + R[7] * y1 + R[8]};
+    const Vector<Lanes> q = cross(x2, t);
+    const Lanes algebraic = q.x * y.x + q.y * y.y + q.z * y.z;
+    const Lanes lx = t.y * y.z - t.z * y.y;
+    const Lanes ly = t.z * y.x - t.x * y.z;
+    const Lanes kx = R[0] * q.x + R[3] * q.y + R[6] * q.z;
+    const Lanes ky = R[1] * q.x + R[4] * q.y + R[7] * q.z;
+    const Lanes gradient =
+        lx * lx + ly * ly + kx * kx + ky * ky + static_cast<Number>(kTinyGradient);
+    const Lanes inverse = 1 / (algebraic * algebraic + squared_scale * gradient);
+    cost += algebraic * algebraic * inverse * weight;
+    // ρ'(r)/(2 r) over the squared gradient norm.
+    const Lanes w = squared_scale * gradient * inverse * inverse * weight;
+    Vector<Lanes> by_w = cross(y, q);
+    Vector<Lanes> by_t = cross(y, x2);
+    if (kExact) {
+      const Lanes share = algebraic / gradient;
+      const Vector<Lanes> Rk{R[0] * kx + R[1] * ky, R[3] * kx + R[4] * ky, R[6] * kx + R[7] * ky};
+      const Vector<Lanes> lt{ly * t.z, -lx * t.z, lx * t.y - ly * t.x};  // l × t
+      const Vector<Lanes> yl{-y.z * ly, y.z * lx, y.x * ly - y.y * lx};  // y × l
+      const Vector<Lanes> first = cross(y, lt);
+      const Vector<Lanes> second = cross(Rk, q);
+      const Vector<Lanes> third = cross(Rk, x2);
+      by_w.x -= share * (first.x + second.x);
+      by_w.y -= share * (first.y + second.y);
+      by_w.z -= share * (first.z + second.z);
+      by_t.x -= share * (yl.x + third.x);
+      by_t.y -= share * (yl.y + third.y);
+      by_t.z -= share * (yl.z + third.z);
+    }
+    const Lanes J[5] = {by_w.x, by_w.y, by_w.z,
+                        by_t.x * pose.T1[0] + by_t.y * pose.T1[1] + by_t.z * pose.T1[2],
+                        by_t.x * pose.T2[0] + by_t.y * pose.T2[1] + by_t.z * pose.T2[2]};
+    const Lanes wr = w * algebraic;
+    for (int k = 0, n = 0; k < 5; ++k) {
+      g[k] += wr * J[k];
+      const Lanes wJ = w * J[k];
+      for (int m = k; m < 5; ++m) H[n++] += wJ * J[m];
+    }
+  }
+  out.cost = sum<Number>(cost);
+  for (int k = 0; k < 5; ++k) out.g[k] = sum<Number>(g[k]);
+  for (int k = 0; k < 15; ++k) out.H[k] = sum<Number>(H[k]);
+}
+
+constexpr ConsensusKernels kKernels{&planar_costs, &msac, &normal_sums<float, false>,
+                                    &normal_sums<double, true>};
+
+}  // namespace
+}  // namespace oneac::internal

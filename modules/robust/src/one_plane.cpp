@@ -1,0 +1,104 @@
+#include "one_plane.h"
+
+#include "oneac/geometry/angular_errors.h"
+#include "oneac/solvers/homography_decomposition.h"
+
+#include <Eigen/Dense>
+
+#include <algorithm>
+#include <cmath>
+
+namespace oneac::internal {
+namespace {
+
+constexpr int kIterations = 5;  // of the reweighting; the plane of most points settles in three
+// Share of the inliers that has to lie on the plane: a handful of points beside it, each with a
+// parallax of its own, already decides between the two poses.
+constexpr double kPlaneShare = 0.95;
+// Poses closer than this are one [rad]: the translation runs along the plane's normal.
+constexpr double kSamePose = 1e-4;
+
+// Inliers looked at: enough to see 5 % of them beside the plane, for a bounded time.
+constexpr std::size_t kLookedAt = 128;
+
+/// At most kLookedAt inliers, evenly spaced.
+std::vector<AffineCorrespondence> some_inliers(AcSpan acs, const std::vector<bool>& inliers) {
+  std::vector<AffineCorrespondence> all;
+  all.reserve(acs.size());
+  for (std::size_t i = 0; i < acs.size(); ++i) {
+    if (inliers[i]) all.push_back(acs[i]);
+  }
+  if (all.size() <= kLookedAt) return all;
+  for (std::size_t k = 0; k < kLookedAt; ++k) all[k] = all[k * all.size() / kLookedAt];
+  all.resize(kLookedAt);
+  return all;
+}
+
+/// x2 of a point of the plane, minus the measured one, and its derivative with respect to m.
+struct Transfer {
+  Eigen::Vector2d r;
+  Eigen::Matrix<double, 2, 3> J;
+};
+
+std::optional<Transfer> transfer(const RelativePose& T, const Eigen::Vector3d& m,
+                                 const AffineCorrespondence& ac) {
+  const Eigen::Vector3d x = ac.x1.homogeneous();
+  const Eigen::Vector3d y = T.R * x + T.t * m.dot(x);
+  if (!(y.z() > 1e-6)) return std::nullopt;
+  const Eigen::Vector2d projected = y.head<2>() / y.z();
+  const Eigen::Vector2d by_depth = (T.t.head<2>() - projected * T.t.z()) / y.z();
+  return Transfer{projected - ac.x2, by_depth * x.transpose()};
+}
+
+Eigen::Vector3d fit_plane(const RelativePose& T, AcSpan acs, double threshold) {
+  Eigen::Vector3d m = Eigen::Vector3d::Zero();
+  double scale = 32.0 * threshold;  // from the plane at infinity, halved to the threshold
+  for (int iteration = 0; iteration < kIterations; ++iteration, scale /= 2.0) {
+    Eigen::Matrix3d H = 1e-12 * Eigen::Matrix3d::Identity();
+    Eigen::Vector3d g = Eigen::Vector3d::Zero();
+    for (const AffineCorrespondence& ac : acs) {
+      const auto e = transfer(T, m, ac);
+      if (!e) continue;
+      const double share = scale * scale / (e->r.squaredNorm() + scale * scale);
+      H += share * share * e->J.transpose() * e->J;
+      g += share * share * e->J.transpose() * e->r;
+    }
+    const Eigen::Vector3d step = -H.ldlt().solve(g);
+    if (!step.allFinite()) break;
+    m += step;
+  }
+  return m;
+}
+
+}  // namespace
+
+std::optional<Eigen::Vector3d> common_plane(const RelativePose& T_2_1, AcSpan acs,
+                                            const std::vector<bool>& inliers, double threshold) {
+  const std::vector<AffineCorrespondence> points = some_inliers(acs, inliers);
+  if (points.empty()) return std::nullopt;
+  const Eigen::Vector3d m = fit_plane(T_2_1, points, threshold);
+  std::size_t on_plane = 0;
+  for (const AffineCorrespondence& ac : points) {
+    const auto e = transfer(T_2_1, m, ac);
+    // Two coordinates are measured here, across and along the epipolar line.
+    if (e && e->r.norm() <= std::sqrt(2.0) * threshold) ++on_plane;
+  }
+  if (static_cast<double>(on_plane) < kPlaneShare * static_cast<double>(points.size())) {
+    return std::nullopt;
+  }
+  return m;
+}
+
+std::optional<RelativePose> twin_pose(const RelativePose& T_2_1, const Eigen::Vector3d& m,
+                                      AcSpan acs, const std::vector<bool>& inliers) {
+  const std::vector<AffineCorrespondence> on_plane = some_inliers(acs, inliers);
+  const Eigen::Matrix3d H = T_2_1.R + T_2_1.t * m.transpose();
+  for (const PlanePose& candidate : poses_from_homography(H, on_plane)) {
+    if (rotation_error(candidate.motion.R, T_2_1.R) < kSamePose) continue;
+    if (!(candidate.motion.t.norm() > 0.0)) continue;
+    return RelativePose{candidate.motion.R, candidate.motion.t.normalized()};
+  }
+  return std::nullopt;
+}
+
+}  // namespace oneac::internal

@@ -1,0 +1,223 @@
+#include "pose_search.h"
+
+#include "consensus_kernels.h"
+#include "levelled_acs.h"
+
+#include "oneac/robust/hypotheses.h"
+#include "oneac/solvers/relpose_1ac_front_wall.h"
+#include "oneac/solvers/relpose_1ac_side_wall.h"
+#include "oneac/solvers/relpose_1ac_wall.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+
+namespace oneac::internal {
+namespace {
+
+constexpr double kDegree = 3.14159265358979323846 / 180.0;
+// Points of the first score: with 80 % outliers still about twenty that the true motion explains.
+constexpr std::size_t kSample = 96;
+// Width of the first score against the threshold: half a step of the sweep moves the points by
+// about two pixels.
+constexpr double kSampleWidth = 2.0;
+
+/// Planar motions at one relative turn of the second view, with room for whole groups of lanes.
+class PlanarPool {
+ public:
+  void clear() { size_ = 0; }
+  [[nodiscard]] std::size_t size() const { return size_; }
+
+  void add(double cos_alpha, double sin_alpha, double tx, double tz) {
+    const double length = std::sqrt(tx * tx + tz * tz);
+    if (!(length > 0.0)) return;
+    if (size_ >= motions_.size()) grow();
+    const double x = tx / length;
+    const double z = tz / length;
+    motions_[size_] = {cos_alpha, sin_alpha, x, z};
+    e12_[size_] = static_cast<float>(-z);
+    e21_[size_] = static_cast<float>(z * cos_alpha - x * sin_alpha);
+    e23_[size_] = static_cast<float>(-z * sin_alpha - x * cos_alpha);
+    e32_[size_] = static_cast<float>(x);
+    ++size_;
+  }
+
+  /// What lies behind size() up to the padding is scored for nothing.
+  [[nodiscard]] PlanarEssentials essentials() const {
+    return {e12_.data(), e21_.data(), e23_.data(), e32_.data(),
+            (size_ + kPointGroup - 1) / kPointGroup * kPointGroup};
+  }
+  [[nodiscard]] const std::array<double, 4>& motion(std::size_t i) const { return motions_[i]; }
+
+ private:
+  void grow() {
+    const std::size_t room = motions_.size() + 64 * kPointGroup;
+    motions_.resize(room);
+    for (std::vector<float>* e : {&e12_, &e21_, &e23_, &e32_}) e->resize(room, 0.0F);
+  }
+
+  std::size_t size_ = 0;
+  std::vector<std::array<double, 4>> motions_;  ///< cos α, sin α, t_x, t_z
+  std::vector<float> e12_, e21_, e23_, e32_;
+};
+
+/// The output arrays of a batch solver.
+struct BatchPoses {
+  std::vector<double> cos_alpha, sin_alpha, tx, tz;
+  std::vector<std::uint8_t> valid;
+
+  void resize(std::size_t size) {
+    for (std::vector<double>* v : {&cos_alpha, &sin_alpha, &tx, &tz}) v->resize(size);
+    valid.resize(size);
+  }
+  [[nodiscard]] PlanarPoseArrays arrays() {
+    return {cos_alpha.data(), sin_alpha.data(), tx.data(), tz.data(), valid.data()};
+  }
+  void move_to(PlanarPool& pool) const {
+    for (std::size_t i = 0; i < valid.size(); ++i) {
+      if (valid[i] != 0) pool.add(cos_alpha[i], sin_alpha[i], tx[i], tz[i]);
+    }
+  }
+};
+
+template <class Solutions>
+void move_to(const Solutions& solutions, PlanarPool& pool) {
+  for (const auto& s : solutions) pool.add(s.cos_alpha, s.sin_alpha, s.tx, s.tz);
+}
+
+/// The wall solvers have no batch form.
+std::size_t solve_walls(const LevelledAcs& acs, const ConsensusOptions& options, PlanarPool& pool) {
+  if (!options.side_wall && !options.front_wall && !options.wall) return 0;
+  const std::size_t size = acs.arrays().size;
+  for (std::size_t i = 0; i < size; ++i) {
+    const AffineCorrespondence ac = acs.at(i);
+    if (options.side_wall) move_to(relpose_1ac_side_wall(ac), pool);
+    if (options.front_wall) move_to(relpose_1ac_front_wall(ac), pool);
+    if (options.wall) move_to(relpose_1ac_wall(ac), pool);
+  }
+  const int solvers = int{options.side_wall} + int{options.front_wall} + int{options.wall};
+  return size * static_cast<std::size_t>(solvers);
+}
+
+/// The share of the correspondences with every chosen solver. @return minimal problems solved
+std::size_t solve(const LevelledAcs& acs, const ConsensusOptions& options, BatchPoses& poses,
+                  PlanarPool& pool) {
+  const AcArrays arrays = acs.arrays();
+  poses.resize(arrays.size);
+  std::size_t solved = 0;
+  if (options.planar) {
+    relpose_1ac_planar_batch(arrays, poses.arrays());
+    poses.move_to(pool);
+    solved += arrays.size;
+  }
+  if (options.ground) {
+    relpose_1ac_ground_batch(arrays, poses.arrays());
+    poses.move_to(pool);
+    solved += arrays.size;
+  }
+  return solved + solve_walls(acs, options, pool);
+}
+
+/// So that about `minimal_problems` are solved per solver over all turns, every correspondence at
+/// some of them.
+std::size_t stride_for(std::size_t acs, std::size_t turns, const ConsensusOptions& options) {
+  const auto wanted = static_cast<std::size_t>(options.minimal_problems);
+  return std::max<std::size_t>(1, acs * turns / wanted);
+}
+
+/// One scored motion, small: poses are made of those that stay.
+struct Entry {
+  float cost;
+  std::uint32_t order;  ///< of arrival, which decides between equals
+  std::uint32_t turn;   ///< index of the relative pitch and roll
+  std::array<double, 4> motion;
+};
+
+bool better(const Entry& a, const Entry& b) {
+  return a.cost != b.cost ? a.cost < b.cost : a.order < b.order;
+}
+
+/// Keeps the best entries seen.
+class ShortList {
+ public:
+  explicit ShortList(std::size_t keep) : keep_(keep) { entries_.reserve(4 * keep); }
+
+  void offer(const Entry& entry) {
+    if (!(entry.cost < bar_)) return;
+    entries_.push_back(entry);
+    if (entries_.size() >= 4 * keep_) shrink();
+  }
+  [[nodiscard]] const std::vector<Entry>& sorted() {
+    if (entries_.size() > keep_) shrink();
+    std::sort(entries_.begin(), entries_.end(), better);
+    return entries_;
+  }
+
+ private:
+  void shrink() {
+    const auto last = entries_.begin() + static_cast<std::ptrdiff_t>(keep_ - 1);
+    std::nth_element(entries_.begin(), last, entries_.end(), better);
+    bar_ = last->cost;
+    entries_.resize(keep_);
+  }
+
+  std::size_t keep_;
+  float bar_ = std::numeric_limits<float>::infinity();
+  std::vector<Entry> entries_;
+};
+
+/// The turns of the second view: every pitch with every roll.
+std::vector<Eigen::Matrix3d> turns(const ConsensusOptions& options) {
+  std::vector<Eigen::Matrix3d> Q;
+  for (double roll :
+       pitch_sweep(options.roll_sweep_deg * kDegree, options.roll_step_deg * kDegree)) {
+    for (double pitch :
+         pitch_sweep(options.pitch_sweep_deg * kDegree, options.pitch_step_deg * kDegree)) {
+      Q.push_back(roll_rotation(roll) * pitch_rotation(pitch));
+    }
+  }
+  return Q;
+}
+
+}  // namespace
+
+SearchResult search_poses(AcSpan acs, const Eigen::Matrix3d& R_level_cam, double threshold,
+                          std::size_t keep, const ConsensusOptions& options) {
+  SearchResult result;
+  LevelledAcs levelled(acs, R_level_cam);
+  if (levelled.size() == 0) return result;
+  const ConsensusKernels& kernels = consensus_kernels(best_simd_level());
+  const double width = kSampleWidth * threshold;
+  const auto inverse_squared = static_cast<float>(1.0 / (width * width));
+  const std::vector<Eigen::Matrix3d> Q = turns(options);
+  const std::size_t stride = stride_for(levelled.size(), Q.size(), options);
+  BatchPoses poses;
+  PlanarPool pool;
+  ShortList list(keep);
+  std::vector<float> costs;
+  for (std::size_t turn = 0; turn < Q.size(); ++turn) {
+    levelled.turn_second_view(Q[turn], {turn % stride, stride});
+    pool.clear();
+    result.solved += solve(levelled, options, poses, pool);
+    costs.resize(pool.essentials().padded_size);
+    kernels.planar_costs(pool.essentials(), levelled.sample(kSample, Q[turn]), inverse_squared,
+                         costs.data());
+    for (std::size_t i = 0; i < pool.size(); ++i) {
+      const auto order = static_cast<std::uint32_t>(result.hypotheses + i);
+      list.offer({costs[i], order, static_cast<std::uint32_t>(turn), pool.motion(i)});
+    }
+    result.hypotheses += pool.size();
+  }
+  for (const Entry& entry : list.sorted()) {
+    const Eigen::Matrix3d Q2t = (Q[entry.turn] * R_level_cam).transpose();
+    const auto& [c, s, tx, tz] = entry.motion;
+    result.best.push_back(
+        {{Q2t * yaw_rotation(c, s) * R_level_cam, Q2t * Eigen::Vector3d(tx, 0.0, tz)},
+         static_cast<double>(entry.cost)});
+  }
+  return result;
+}
+
+}  // namespace oneac::internal
