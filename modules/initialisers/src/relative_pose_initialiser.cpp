@@ -2,7 +2,7 @@
 
 #include "oneac/base/error.h"
 #include "oneac/base/nearest_name.h"
-#include "oneac/initialisers/one_ac_initialisers.h"
+#include "oneac/initialisers/method_initialisers.h"
 
 #include <algorithm>
 
@@ -11,14 +11,10 @@ IMPLEMENTS_VIRTUAL_MRPT_OBJECT(RelativePoseInitialiser, mrpt::rtti::CObject, one
 namespace oneac {
 namespace {
 
-/// Tells MRPT's factory about our classes, once, whatever the linker dropped of a static library.
+/// Once, whatever the linker dropped of a static library.
 void register_built_in() {
   static const bool registered = [] {
-    mrpt::rtti::registerClass(CLASS_ID(RelativePoseInitialiser));
-    mrpt::rtti::registerClass(CLASS_ID(OneAcInitialiser));
-    mrpt::rtti::registerClass(CLASS_ID(Initialiser1acPooled));
-    mrpt::rtti::registerClass(CLASS_ID(Initialiser1acGround));
-    mrpt::rtti::registerClass(CLASS_ID(Initialiser1acPlanar));
+    register_methods();
     return true;
   }();
   static_cast<void>(registered);

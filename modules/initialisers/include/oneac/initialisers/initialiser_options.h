@@ -1,0 +1,28 @@
+#pragma once
+
+#include "oneac/robust/gc_ransac.h"
+#include "oneac/robust/one_ac_consensus.h"
+
+#include <string>
+
+namespace oneac {
+
+/// What the initialisers of this library can be told. validate() throws std::invalid_argument.
+struct InitialiserOptions {
+  std::string estimator = "default";  ///< "consensus", "gc_ransac", or what the method prefers
+  ConsensusOptions consensus;
+  GcRansacOptions gc_ransac;
+
+  void validate() const;
+  /// As a YAML document, for RelativePoseInitialiser::configure.
+  [[nodiscard]] std::string to_yaml() const;
+};
+
+template <class Visitor>
+void describe(Visitor&& visit, InitialiserOptions& o) {
+  visit("estimator", o.estimator, "name", "consensus, gc_ransac, or default: the method's own");
+  visit.section("consensus", o.consensus);
+  visit.section("gc_ransac", o.gc_ransac);
+}
+
+}  // namespace oneac

@@ -1,0 +1,106 @@
+#include "oneac/base/error.h"
+#include "oneac/initialisers/method_initialisers.h"
+#include "oneac/initialisers/yaml_parameters.h"
+#include "oneac/robust/degeneracy.h"
+
+#include <mrpt/containers/yaml.h>
+
+#include <algorithm>
+#include <iterator>
+#include <stdexcept>
+#include <utility>
+
+namespace oneac {
+namespace {
+
+constexpr const char* kConsensus = "consensus";
+constexpr const char* kGcRansac = "gc_ransac";
+
+bool contains(const std::vector<std::string>& names, const std::string& name) {
+  return std::find(names.begin(), names.end(), name) != names.end();
+}
+
+/// GC-RANSAC with what it does not look for itself.
+RobustResult gc_ransac_with_degeneracies(const InitialiserInput& input, MinimalMethod method,
+                                         const InitialiserOptions& options) {
+  const double threshold = options.gc_ransac.threshold_px / input.focal_px;
+  const DegeneracyBounds bounds{threshold, options.consensus.standing_px / input.focal_px};
+  if (!input.acs.empty()) {
+    if (auto stood = standing(input.acs, bounds)) return *stood;
+  }
+  RobustResult result = gc_ransac(input.acs, input.R_level_cam, input.focal_px, method, input.seed,
+                                  options.gc_ransac);
+  if (result.status != PoseStatus::kOk) return result;
+  if (auto turned = turning(input.acs, result.pose.R, bounds)) {
+    turned->statistics = result.statistics;
+    return *turned;
+  }
+  settle_one_plane(input.acs, input.R_level_cam, threshold, result);
+  return result;
+}
+
+/// Inlier flags of the finite correspondences, put back in the places of all.
+std::vector<bool> spread(const std::vector<bool>& of_finite, AcSpan acs) {
+  std::vector<bool> all(acs.size(), false);
+  for (std::size_t i = 0, k = 0; i < acs.size(); ++i) {
+    if (acs[i].is_finite()) all[i] = of_finite[k++];
+  }
+  return all;
+}
+
+}  // namespace
+
+std::vector<std::string> MethodInitialiser::estimators() const {
+  std::vector<std::string> names;
+  if (method().choose_solvers != nullptr) names.emplace_back(kConsensus);
+  if (method().minimal) names.emplace_back(kGcRansac);
+  return names;
+}
+
+void MethodInitialiser::configure(const mrpt::containers::yaml& parameters) {
+  InitialiserOptions options;
+  ParameterTable table;
+  table.add("", options);
+  apply_yaml(parameters, name(), table);
+  try {
+    options.validate();
+    if (options.estimator != "default" && !contains(estimators(), options.estimator)) {
+      throw std::invalid_argument("estimator = " + options.estimator + ", must be " +
+                                  estimators().front() + " for this method");
+    }
+  } catch (const std::invalid_argument& error) {
+    throw InputError(name(), error.what(), "correct the value");
+  }
+  options_ = options;
+}
+
+InitialiserResult MethodInitialiser::estimate(const InitialiserInput& input) const {
+  InitialiserResult result;
+  if (std::all_of(input.acs.begin(), input.acs.end(),
+                  [](const AffineCorrespondence& ac) { return ac.is_finite(); })) {
+    result = estimate_finite(input);
+  } else {
+    std::vector<AffineCorrespondence> finite;
+    std::copy_if(input.acs.begin(), input.acs.end(), std::back_inserter(finite),
+                 [](const AffineCorrespondence& ac) { return ac.is_finite(); });
+    InitialiserInput clean = input;
+    clean.acs = finite;
+    result = estimate_finite(clean);
+    result.inliers = spread(result.inliers, input.acs);
+  }
+  MRPT_LOG_DEBUG_FMT("%s: %s, %zu of %zu correspondences agree", name().c_str(),
+                     to_string(result.status), result.inlier_count, input.acs.size());
+  return result;
+}
+
+InitialiserResult MethodInitialiser::estimate_finite(const InitialiserInput& input) const {
+  const std::string estimator =
+      options_.estimator == "default" ? estimators().front() : options_.estimator;
+  if (estimator == kGcRansac)
+    return gc_ransac_with_degeneracies(input, *method().minimal, options_);
+  ConsensusOptions consensus = options_.consensus;
+  method().choose_solvers(consensus);
+  return one_ac_consensus(input.acs, input.R_level_cam, input.focal_px, consensus);
+}
+
+}  // namespace oneac
