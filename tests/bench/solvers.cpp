@@ -24,6 +24,9 @@
 
 #include <benchmark/benchmark.h>
 
+#include <opencv2/calib3d.hpp>
+#include <opencv2/imgproc.hpp>
+
 #include <algorithm>
 #include <cmath>
 #include <string>
@@ -279,6 +282,80 @@ void add_rivals() {
       [](AcSpan s) { return essential_8pc(s); });
 }
 
+Eigen::Matrix3d to_eigen(const cv::Mat& M, int first_row = 0) {
+  Eigen::Matrix3d result;
+  for (int i = 0; i < 3; ++i) {
+    for (int j = 0; j < 3; ++j) result(i, j) = M.at<double>(first_row + i, j);
+  }
+  return result;
+}
+
+/// OpenCV's homography, scaled and signed as ours.
+std::vector<Eigen::Matrix3d> scaled(const cv::Mat& M, AcSpan points) {
+  if (M.empty()) return {};
+  Eigen::Matrix3d H = to_eigen(M);
+  H /= H.jacobiSvd().singularValues()(1);
+  const double sign = points[0].x2.homogeneous().dot(H * points[0].x1.homogeneous());
+  if (sign < 0.0) H = -H;
+  return {H};
+}
+
+/// Points of both views in OpenCV's types; float where nothing else is taken.
+template <class Point>
+struct CvPoints {
+  std::vector<Point> first, second;
+
+  explicit CvPoints(AcSpan acs) {
+    using Scalar = decltype(Point::x);
+    for (const auto& ac : acs) {
+      first.emplace_back(static_cast<Scalar>(ac.x1.x()), static_cast<Scalar>(ac.x1.y()));
+      second.emplace_back(static_cast<Scalar>(ac.x2.x()), static_cast<Scalar>(ac.x2.y()));
+    }
+  }
+};
+
+/// Conversion to OpenCV's types is part of the time, as it would be for a caller of ours. OpenCV
+/// stores the points of homographies and of the eight-point method in single precision: below
+/// kFound the ground truth is found in part of the scenes only.
+void add_opencv() {
+  add("OpenCV/findHomography(0)", {Motion::kGeneral, Surface::kPlane, 4}, [](AcSpan s) {
+    const CvPoints<cv::Point2d> p(s);
+    return scaled(cv::findHomography(p.first, p.second, 0), s);
+  });
+  add("OpenCV/getPerspectiveTransform", {Motion::kGeneral, Surface::kPlane, 4}, [](AcSpan s) {
+    const CvPoints<cv::Point2f> p(s);
+    return scaled(cv::getPerspectiveTransform(p.first.data(), p.second.data()), s);
+  });
+  add("OpenCV/findHomography(0)+decomposeHomographyMat", {Motion::kGeneral, Surface::kPlane, 4},
+      [](AcSpan s) {
+        const CvPoints<cv::Point2d> p(s);
+        const cv::Mat H = cv::findHomography(p.first, p.second, 0);
+        std::vector<PlanePose> poses;
+        std::vector<cv::Mat> R, t, n;
+        if (!H.empty()) cv::decomposeHomographyMat(H, cv::Mat::eye(3, 3, CV_64F), R, t, n);
+        for (std::size_t i = 0; i < R.size(); ++i) {
+          const auto vector = [](const cv::Mat& v) {
+            return Eigen::Vector3d(v.at<double>(0), v.at<double>(1), v.at<double>(2));
+          };
+          poses.push_back({{to_eigen(R[i]), vector(t[i])}, vector(n[i])});
+        }
+        return poses;
+      });
+  add("OpenCV/findEssentialMat(5, RANSAC)", {Motion::kGeneral, Surface::kAny, 5}, [](AcSpan s) {
+    const CvPoints<cv::Point2d> p(s);  // five points: its minimal solver, called once
+    const cv::Mat E = cv::findEssentialMat(p.first, p.second, cv::Mat::eye(3, 3, CV_64F),
+                                           cv::RANSAC, 0.999, 1e-3);
+    std::vector<Eigen::Matrix3d> all;
+    for (int row = 0; row + 3 <= E.rows; row += 3) all.push_back(to_eigen(E, row));
+    return all;
+  });
+  add("OpenCV/findFundamentalMat(8POINT)", {Motion::kGeneral, Surface::kAny, 8}, [](AcSpan s) {
+    const CvPoints<cv::Point2d> p(s);
+    const cv::Mat F = cv::findFundamentalMat(p.first, p.second, cv::FM_8POINT);
+    return F.empty() ? std::vector<Eigen::Matrix3d>() : std::vector<Eigen::Matrix3d>{to_eigen(F)};
+  });
+}
+
 #ifdef ONEAC_HAVE_OPENGV
 template <class Method>
 auto with_opengv(AcSpan acs, Method method) {
@@ -320,6 +397,8 @@ int main(int argc, char** argv) {
   add_one_ac();
   add_batches();
   add_rivals();
+  cv::setNumThreads(1);
+  add_opencv();
 #ifdef ONEAC_HAVE_OPENGV
   add_opengv();
 #endif

@@ -61,36 +61,33 @@ inline CircleProblem ground_problem(const AcLanes& ac) {
 /// A lane that has converged stands still while its neighbours go on, so that no result depends on
 /// them.
 inline Mask minimise_near_circle(const CircleProblem& r, Lanes& c, Lanes& s) {
+  const Lanes T = r.cc + r.ss, D = r.cc * r.ss - r.cs * r.cs;
+  const Lanes n0 = r.ss * r.cb - r.cs * r.sb, n1 = r.cc * r.sb - r.cs * r.cb;
+  const Lanes c0 = D * D - (n0 * n0 + n1 * n1);
+  const Lanes c1 = 2.0 * (T * D - (n0 * r.cb + n1 * r.sb));
+  const Lanes c2 = T * T + 2.0 * D - (r.cb * r.cb + r.sb * r.sb);
   Lanes lambda = all(0.0);
+  Lanes value = c0, slope = c1, bend = c2;
   Mask valid = r.regular;
   Mask open = valid;
-  for (int step = 0; step <= kHalleySteps; ++step) {
-    const Lanes q00 = r.cc + lambda, q11 = r.ss + lambda;
-    const Lanes det = q00 * q11 - r.cs * r.cs;
-    const Lanes trace = q00 + q11;
-    const Lanes n0 = q11 * r.cb - r.cs * r.sb;
-    const Lanes n1 = q00 * r.sb - r.cs * r.cb;
-    const Lanes squared = n0 * n0 + n1 * n1;
-    const Lanes length = square_root(squared);
-    valid &= (trace > 0.0) & (det > kNearHardCase * trace * trace) & (length > 0.0);
-    open &= valid;
-    if (!any(open)) {
-      const Lanes inverse = 1.0 / length;
-      c = n0 * inverse;
-      s = n1 * inverse;
-      return valid;
-    }
-    const Lanes m0 = q11 * n0 - r.cs * n1;
-    const Lanes m1 = q00 * n1 - r.cs * n0;
-    const Lanes slope = n0 * m0 + n1 * m1;
-    const Lanes cross = n0 * m1 - n1 * m0;
-    const Lanes excess = length - det;
-    const Lanes delta =
-        excess * squared * det * slope / (det * slope * slope - 1.5 * excess * cross * cross);
+  for (int step = 0; step < kHalleySteps; ++step) {
+    const Lanes delta = value * slope / (value * bend - slope * slope);
     lambda = open ? lambda + delta : lambda;
-    open &= ~(magnitude(delta) * trace <= kHalleyStep * det);
+    const Lanes det = D + lambda * (T + lambda);
+    const Lanes trace = T + 2.0 * lambda;
+    valid &= (trace > 0.0) & (det > kNearHardCase * trace * trace);
+    open &= valid & ~(magnitude(delta) * trace <= kHalleyStep * det);
+    if (!any(open)) break;
+    const Lanes squared = lambda * lambda;
+    value = c0 + lambda * c1 + squared * (c2 + lambda * (2.0 * T + lambda));
+    slope = c1 + 2.0 * lambda * c2 + squared * (6.0 * T + 4.0 * lambda);
+    bend = c2 + 6.0 * (lambda * T + squared);
   }
-  return valid & ~valid;
+  const Lanes x = n0 + lambda * r.cb, y = n1 + lambda * r.sb;
+  const Lanes length = square_root(x * x + y * y);
+  c = x / length;
+  s = y / length;
+  return valid & ~open & (length > 0.0);
 }
 
 /// relpose_1ac_ground for each lane.

@@ -2,8 +2,8 @@
 
 #include "five_point_cubics.h"
 #include "null_space.h"
-#include "planar_plane_system.h"
 #include "polynomial.h"
+#include "usable.h"
 
 #include <Eigen/Dense>
 

@@ -91,6 +91,7 @@ SolutionSet<Matrix3d, 1> scaled_homography(const Matrix3d& H, AcSpan acs, const 
                                                       Eigen::EigenvaluesOnly);
   const Vector3d values = eigen.eigenvalues();
   if (!(values(0) > kSingular * kSingular * values(2))) return {};
+  if (!(values(2) - values(0) > kRotation * values(1))) return {};  // a rotation: no plane seen
   int votes = 0;
   for (std::size_t i = 0; i < acs.size(); ++i) {
     if (!takes_part(acs, weights, i)) continue;

@@ -1,7 +1,5 @@
 #include "minimise_on_circle.h"
 
-#include "thresholds.h"
-
 #include <algorithm>
 #include <cmath>
 
@@ -46,46 +44,8 @@ constexpr double kSecularStep = 1e-9;
   return mu;
 }
 
-/// The minimum on the circle by Halley's method on the secular equation from λ = 0, where the
-/// solution without noise lies, in the basis of Q. False near the hard case and when Q + λI turns
-/// indefinite.
-[[nodiscard]] bool minimise_near_circle(const Eigen::Matrix2d& Q, const Eigen::Vector2d& h,
-                                        Eigen::Vector2d& z) {
-  const double q01 = Q(0, 1);
-  double lambda = 0.0;
-  bool converged = false;
-  for (int step = 0; step <= kHalleySteps; ++step) {
-    const double q00 = Q(0, 0) + lambda, q11 = Q(1, 1) + lambda;
-    const double det = q00 * q11 - q01 * q01;
-    const double trace = q00 + q11;
-    if (!(trace > 0.0) || !(det > kNearHardCase * trace * trace)) return false;
-    const double n0 = q11 * h.x() - q01 * h.y();  // det · (Q + λI)⁻¹ h
-    const double n1 = q00 * h.y() - q01 * h.x();
-    const double squared = n0 * n0 + n1 * n1;
-    const double length = std::sqrt(squared);
-    if (!(length > 0.0)) return false;
-    if (converged) {
-      z = {n0 / length, n1 / length};
-      return true;
-    }
-    const double m0 = q11 * n0 - q01 * n1;
-    const double m1 = q00 * n1 - q01 * n0;
-    const double slope = n0 * m0 + n1 * m1;
-    const double cross = n0 * m1 - n1 * m0;
-    const double excess = length - det;
-    const double delta =
-        excess * squared * det * slope / (det * slope * slope - 1.5 * excess * cross * cross);
-    lambda += delta;
-    converged = std::abs(delta) <= kHalleyStep * det / trace;  // det/trace < smallest eigenvalue
-  }
-  return false;
-}
-
-}  // namespace
-
-Eigen::Vector2d minimise_on_circle(const Eigen::Matrix2d& Q, const Eigen::Vector2d& h) {
-  Eigen::Vector2d z;
-  if (minimise_near_circle(Q, h, z)) return z;
+/// The minimum by the roots of the secular equation in the eigenbasis of Q.
+[[nodiscard]] Eigen::Vector2d minimum(const Eigen::Matrix2d& Q, const Eigen::Vector2d& h) {
   double gap = 0.0;
   const Eigen::Vector2d v = smaller_eigenvector(Q, gap);
   const Eigen::Vector2d w(-v.y(), v.x());
@@ -107,6 +67,25 @@ Eigen::Vector2d minimise_on_circle(const Eigen::Matrix2d& Q, const Eigen::Vector
   const double a = h1 * (mu + gap);
   const double b = h2 * mu;
   return (a * v + b * w) / std::sqrt(a * a + b * b);
+}
+
+}  // namespace
+
+Eigen::Vector2d minimise_on_circle(const Eigen::Matrix2d& Q, const Eigen::Vector2d& h) {
+  const CircleProblem problem{Q(0, 0), Q(0, 1), Q(1, 1), h.x(), h.y()};
+  Eigen::Vector2d z;
+  if (!minimise_near_circle(problem, z.x(), z.y())) {
+    minimise_far_from_circle(problem, z.x(), z.y());
+  }
+  return z;
+}
+
+void minimise_far_from_circle(const CircleProblem& problem, double& c, double& s) {
+  Eigen::Matrix2d Q;
+  Q << problem.cc, problem.cs, problem.cs, problem.ss;
+  const Eigen::Vector2d z = minimum(Q, {problem.cb, problem.sb});
+  c = z.x();
+  s = z.y();
 }
 
 }  // namespace oneac::internal

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "planar_plane_system.h"
+#include "usable.h"
 
 #include "oneac/solvers/span.h"
 

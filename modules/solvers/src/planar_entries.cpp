@@ -1,6 +1,6 @@
 #include "planar_entries.h"
 
-#include "planar_plane_system.h"
+#include "usable.h"
 
 #include "oneac/geometry/triangulation.h"
 

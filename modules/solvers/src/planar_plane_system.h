@@ -1,72 +1,87 @@
 #pragma once
 
-#include "oneac/geometry/affine_correspondence.h"
+#include "plane_gram.h"
+#include "plane_solve.h"
+#include "thresholds.h"
+#include "usable.h"
+
 #include "oneac/solvers/planar_pose.h"
 #include "oneac/solvers/solution_set.h"
 #include "oneac/solvers/span.h"
 #include "oneac/solvers/wall_pose.h"
 
-#include <Eigen/Core>
-
-#include <optional>
+#include <cmath>
 
 namespace oneac::internal {
 
-/// Normal equations of A x = b, eqs. (9) and (10), over any number of correspondences on a plane of
-/// known normal: products of the columns of A = (c | s | p | q) and b. Unknowns (cos α, sin α,
-/// p = t_x/d, q = t_z/d) with n·X = d, so that p and q carry the sign of d (the paper's walls have
-/// the opposite sign). p·b is always zero.
-struct PlaneGram {
-  double cc = 0.0, cs = 0.0, ss = 0.0, cp = 0.0, sp = 0.0, cq = 0.0, sq = 0.0;
-  double pp = 0.0, pq = 0.0, qq = 0.0, cb = 0.0, sb = 0.0, qb = 0.0, bb = 0.0;
-
-  /// Adds the six rows of one correspondence, weighted.
-  void add(const AffineCorrespondence& ac, const Eigen::Vector3d& n, double weight);
-  /// Adds the two rows of its points, eq. (4), only.
-  void add_points(const AffineCorrespondence& ac, const Eigen::Vector3d& n, double weight);
-};
-
-/// Solution (cos α, sin α, p, q) with a unit (cos α, sin α).
-struct PlaneSolution {
-  double c, s, p, q;
-};
-
-/// Homogeneous least squares: the eigenvector of the smallest eigenvalue of [A | −b]ᵀ[A | −b],
-/// scaled to a last entry of one, then (c, s) normalised. Empty when the last entry vanishes or the
-/// null space is not unique.
-[[nodiscard]] std::optional<PlaneSolution> solve_rapid(const PlaneGram& gram);
-
-/// min |A x − b|² subject to c² + s² = 1. Empty when p, q are not determined.
-[[nodiscard]] std::optional<PlaneSolution> solve_optimal(const PlaneGram& gram);
-
 /// How the two forms of a solver differ.
-using PlaneSolve = std::optional<PlaneSolution> (*)(const PlaneGram&);
+enum class PlaneForm { kOptimal, kRapid };
 
-/// A plane of known normal as one solver sees it.
-struct KnownPlane {
-  Eigen::Vector3d n;                              ///< its normal, up to the sign of d
-  bool (*may_show)(const AffineCorrespondence&);  ///< whether the point can lie on it usefully
-  bool points_only = false;                       ///< leave the affinities out
+/// The correspondences of a plane put together.
+struct PlaneSum {
+  PlaneGram gram;
+  const AffineCorrespondence* first = nullptr;  ///< usable one
+  int side = 0;  ///< votes for the sign of d: before the camera n·x̃1 has the sign of d
 };
 
-/// The whole solver: correspondences on the plane to the pose with t in units of |d|. Empty when
-/// none is usable, without motion, or when the plane would end up behind the second camera.
-[[nodiscard]] SolutionSet<PlanarPose, 1> relpose_known_plane(const KnownPlane& plane, AcSpan acs,
-                                                             const double* weights,
-                                                             PlaneSolve solve);
-
-/// The same for a vertical plane: the normal, turned towards the wall, comes with the pose.
-[[nodiscard]] SolutionSet<WallPose, 1> relpose_known_wall(const KnownPlane& plane, AcSpan acs,
-                                                          const double* weights, PlaneSolve solve);
-
-/// Finite points; the affinity is not looked at.
-[[nodiscard]] inline bool has_points(const AffineCorrespondence& ac) {
-  return ac.x1.allFinite() && ac.x2.allFinite();
+/// A Plane as one solver sees it has kNormal, kPointsOnly (leave the affinities out) and
+/// may_show(ac): whether the point can lie on it usefully.
+template <class Plane>
+[[nodiscard]] PlaneSum sum_over_plane(AcSpan acs, const double* weights) {
+  PlaneSum sum;
+  for (std::size_t i = 0; i < acs.size(); ++i) {
+    const double weight = weights == nullptr ? 1.0 : weights[i];
+    const bool usable = Plane::kPointsOnly ? has_points(acs[i]) : is_usable(acs[i]);
+    if (!(weight > 0.0) || !usable || !Plane::may_show(acs[i])) continue;
+    if constexpr (Plane::kPointsOnly) {
+      sum.gram.template add_points<Plane::kNormal>(acs[i], weight);
+    } else {
+      sum.gram.template add<Plane::kNormal>(acs[i], weight);
+    }
+    sum.side += along_normal<Plane::kNormal>(acs[i]) > 0.0 ? 1 : -1;
+    if (sum.first == nullptr) sum.first = &acs[i];
+  }
+  return sum;
 }
 
-/// Finite, not mirrored.
-[[nodiscard]] inline bool is_usable(const AffineCorrespondence& ac) {
-  return ac.is_finite() && ac.A.determinant() > 0.0;
+/// The whole solver: correspondences on the plane to (c, s, t_x/|d|, t_z/|d|) and the sign of d,
+/// zero when there is none: none is usable, no motion, or the plane behind the second camera.
+template <class Plane, PlaneForm kForm>
+[[nodiscard]] double solve_known_plane(AcSpan acs, const double* weights, PlaneSolution& x) {
+  const PlaneSum sum = sum_over_plane<Plane>(acs, weights);
+  if (sum.first == nullptr) return 0.0;
+  const bool solved =
+      kForm == PlaneForm::kOptimal ? solve_optimal(sum.gram, x) : solve_rapid(sum.gram, x);
+  if (!solved) return 0.0;
+  const double squared_length = x.p * x.p + x.q * x.q;
+  if (!(squared_length > kNoPlaneMotion * kNoPlaneMotion) || !std::isfinite(squared_length)) {
+    return 0.0;
+  }
+  // Third row of H: the plane must stay before the second camera.
+  const double z2 = x.s * sum.first->x1.x() + x.q * along_normal<Plane::kNormal>(*sum.first) + x.c;
+  if (!(z2 > 0.0) || !std::isfinite(z2)) return 0.0;
+  const double sign = sum.side >= 0 ? 1.0 : -1.0;
+  x.p *= sign;
+  x.q *= sign;
+  return sign;
+}
+
+/// Correspondences on the plane to the pose with t in units of |d|.
+template <class Plane, PlaneForm kForm>
+[[nodiscard]] SolutionSet<PlanarPose, 1> relpose_known_plane(AcSpan acs, const double* weights) {
+  PlaneSolution x{};
+  if (solve_known_plane<Plane, kForm>(acs, weights, x) == 0.0) return {};
+  return PlanarPose{x.c, x.s, x.p, x.q};
+}
+
+/// The same for a vertical plane: the normal, turned towards the wall, comes with the pose.
+template <class Plane, PlaneForm kForm>
+[[nodiscard]] SolutionSet<WallPose, 1> relpose_known_wall(AcSpan acs, const double* weights) {
+  PlaneSolution x{};
+  const double sign = solve_known_plane<Plane, kForm>(acs, weights, x);
+  if (sign == 0.0) return {};
+  const bool side_wall = Plane::kNormal == Axis::kX;
+  return WallPose{{x.c, x.s, x.p, x.q}, side_wall ? sign : 0.0, side_wall ? 0.0 : sign};
 }
 
 }  // namespace oneac::internal

@@ -9,12 +9,14 @@
 namespace oneac {
 namespace {
 
-/// On y = 0 only three of the six equations are left, for which there are two solutions.
-bool may_lie_on_wall(const AffineCorrespondence& ac) {
-  return std::abs(ac.x1.y()) > kHorizon;
-}
+using internal::PlaneForm;
 
-const internal::KnownPlane kWall{Eigen::Vector3d(0.0, 0.0, 1.0), &may_lie_on_wall};
+struct Wall {
+  static constexpr internal::Axis kNormal = internal::Axis::kZ;
+  static constexpr bool kPointsOnly = false;
+  /// On y = 0 only three of the six equations are left, for which there are two solutions.
+  static bool may_show(const AffineCorrespondence& ac) { return std::abs(ac.x1.y()) > kHorizon; }
+};
 
 }  // namespace
 
@@ -23,7 +25,7 @@ SolutionSet<WallPose, 1> relpose_1ac_front_wall(const AffineCorrespondence& ac) 
 }
 
 SolutionSet<WallPose, 1> relpose_nac_front_wall(AcSpan acs, const double* weights) {
-  return internal::relpose_known_wall(kWall, acs, weights, &internal::solve_optimal);
+  return internal::relpose_known_wall<Wall, PlaneForm::kOptimal>(acs, weights);
 }
 
 SolutionSet<WallPose, 1> relpose_1ac_front_wall_rapid(const AffineCorrespondence& ac) {
@@ -31,7 +33,7 @@ SolutionSet<WallPose, 1> relpose_1ac_front_wall_rapid(const AffineCorrespondence
 }
 
 SolutionSet<WallPose, 1> relpose_nac_front_wall_rapid(AcSpan acs, const double* weights) {
-  return internal::relpose_known_wall(kWall, acs, weights, &internal::solve_rapid);
+  return internal::relpose_known_wall<Wall, PlaneForm::kRapid>(acs, weights);
 }
 
 }  // namespace oneac

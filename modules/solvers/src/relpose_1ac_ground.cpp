@@ -8,13 +8,15 @@ namespace {
 
 static_assert(internal::kGroundHorizon == kHorizon, "the batch form must agree");
 
-/// The sign is part of it: n·X = d > 0 is the camera height, so y > 0 for every point of the
-/// ground.
-bool may_lie_on_ground(const AffineCorrespondence& ac) {
-  return ac.x1.y() > kHorizon;
-}
+using internal::PlaneForm;
 
-const internal::KnownPlane kGround{Eigen::Vector3d(0.0, 1.0, 0.0), &may_lie_on_ground};
+struct Ground {
+  static constexpr internal::Axis kNormal = internal::Axis::kY;
+  static constexpr bool kPointsOnly = false;
+  /// The sign is part of it: n·X = d > 0 is the camera height, so y > 0 for every point of the
+  /// ground.
+  static bool may_show(const AffineCorrespondence& ac) { return ac.x1.y() > kHorizon; }
+};
 
 }  // namespace
 
@@ -23,7 +25,7 @@ SolutionSet<PlanarPose, 1> relpose_1ac_ground(const AffineCorrespondence& ac) {
 }
 
 SolutionSet<PlanarPose, 1> relpose_nac_ground(AcSpan acs, const double* weights) {
-  return internal::relpose_known_plane(kGround, acs, weights, &internal::solve_optimal);
+  return internal::relpose_known_plane<Ground, PlaneForm::kOptimal>(acs, weights);
 }
 
 SolutionSet<PlanarPose, 1> relpose_1ac_ground_rapid(const AffineCorrespondence& ac) {
@@ -31,7 +33,7 @@ SolutionSet<PlanarPose, 1> relpose_1ac_ground_rapid(const AffineCorrespondence& 
 }
 
 SolutionSet<PlanarPose, 1> relpose_nac_ground_rapid(AcSpan acs, const double* weights) {
-  return internal::relpose_known_plane(kGround, acs, weights, &internal::solve_rapid);
+  return internal::relpose_known_plane<Ground, PlaneForm::kRapid>(acs, weights);
 }
 
 }  // namespace oneac

@@ -2,8 +2,8 @@
 
 #include "least_squares_null_vector.h"
 #include "planar_entries.h"
-#include "planar_plane_system.h"
 #include "thresholds.h"
+#include "usable.h"
 
 #include <Eigen/Dense>
 

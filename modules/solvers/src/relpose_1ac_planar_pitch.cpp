@@ -2,8 +2,8 @@
 
 #include "pitch_null_vector.h"
 #include "pitched_essential.h"
-#include "planar_plane_system.h"
 #include "polynomial.h"
+#include "usable.h"
 
 #include "oneac/geometry/triangulation.h"
 

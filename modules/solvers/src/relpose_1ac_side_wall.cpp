@@ -9,13 +9,17 @@
 namespace oneac {
 namespace {
 
-/// Along x = 0 lies the wall's own vanishing line. On y = 0 only three of the six equations are
-/// left, for which there are two solutions.
-bool may_lie_on_wall(const AffineCorrespondence& ac) {
-  return std::abs(ac.x1.x()) > kHorizon && std::abs(ac.x1.y()) > kHorizon;
-}
+using internal::PlaneForm;
 
-const internal::KnownPlane kWall{Eigen::Vector3d(1.0, 0.0, 0.0), &may_lie_on_wall};
+struct Wall {
+  static constexpr internal::Axis kNormal = internal::Axis::kX;
+  static constexpr bool kPointsOnly = false;
+  /// Along x = 0 lies the wall's own vanishing line. On y = 0 only three of the six equations are
+  /// left, for which there are two solutions.
+  static bool may_show(const AffineCorrespondence& ac) {
+    return std::abs(ac.x1.x()) > kHorizon && std::abs(ac.x1.y()) > kHorizon;
+  }
+};
 
 }  // namespace
 
@@ -24,7 +28,7 @@ SolutionSet<WallPose, 1> relpose_1ac_side_wall(const AffineCorrespondence& ac) {
 }
 
 SolutionSet<WallPose, 1> relpose_nac_side_wall(AcSpan acs, const double* weights) {
-  return internal::relpose_known_wall(kWall, acs, weights, &internal::solve_optimal);
+  return internal::relpose_known_wall<Wall, PlaneForm::kOptimal>(acs, weights);
 }
 
 SolutionSet<WallPose, 1> relpose_1ac_side_wall_rapid(const AffineCorrespondence& ac) {
@@ -32,7 +36,7 @@ SolutionSet<WallPose, 1> relpose_1ac_side_wall_rapid(const AffineCorrespondence&
 }
 
 SolutionSet<WallPose, 1> relpose_nac_side_wall_rapid(AcSpan acs, const double* weights) {
-  return internal::relpose_known_wall(kWall, acs, weights, &internal::solve_rapid);
+  return internal::relpose_known_wall<Wall, PlaneForm::kRapid>(acs, weights);
 }
 
 }  // namespace oneac

@@ -1,7 +1,7 @@
 #include "oneac/solvers/relpose_1pc_ackermann.h"
 
 #include "planar_entries.h"
-#include "planar_plane_system.h"
+#include "usable.h"
 
 #include <cmath>
 
@@ -10,15 +10,19 @@ namespace {
 
 // Rows shorter than this [-] say nothing: both points on the horizon.
 constexpr double kEmptyRow = 1e-12;
+// Flow [-] that is rounding: the camera stands still.
+constexpr double kNoFlow = 1e-12;
 
 }  // namespace
 
 SolutionSet<PlanarPose, 1> relpose_1pc_ackermann(AcSpan points, const double* weights) {
   // E12 = cos h, E21 = −cos h, E23 = E32 = sin h with h = α/2: rows a cos h + b sin h = 0.
   double aa = 0.0, ab = 0.0, bb = 0.0;
+  bool moved = false;
   for (std::size_t i = 0; i < points.size(); ++i) {
     const double weight = weights == nullptr ? 1.0 : weights[i];
     if (!(weight > 0.0) || !internal::has_points(points[i])) continue;
+    moved = moved || (points[i].x2 - points[i].x1).squaredNorm() > kNoFlow * kNoFlow;
     const Eigen::Vector4d row = internal::epipolar_row(points[i]);
     const double a = row(0) - row(1);
     const double b = row(2) + row(3);
@@ -26,6 +30,7 @@ SolutionSet<PlanarPose, 1> relpose_1pc_ackermann(AcSpan points, const double* we
     ab += weight * a * b;
     bb += weight * b * b;
   }
+  if (!moved) return {};
   const double half = 0.5 * (aa - bb);
   const double radius = std::sqrt(half * half + ab * ab);
   if (!(radius > kEmptyRow * kEmptyRow) || !std::isfinite(radius)) return {};

@@ -10,18 +10,18 @@ namespace {
 // Two points closer than this [-] are one: their difference has no digits left.
 constexpr double kCoincident = 1e-6;
 
-bool under_horizon(const AffineCorrespondence& ac) {
-  return ac.x1.y() > kHorizon;
-}
-
-const internal::KnownPlane kGround{Eigen::Vector3d(0.0, 1.0, 0.0), &under_horizon, true};
+struct GroundPoints {
+  static constexpr internal::Axis kNormal = internal::Axis::kY;
+  static constexpr bool kPointsOnly = true;
+  static bool may_show(const AffineCorrespondence& ac) { return ac.x1.y() > kHorizon; }
+};
 
 /// Whether two usable points differ.
 [[nodiscard]] bool spread(AcSpan points, const double* weights) {
   const AffineCorrespondence* first = nullptr;
   for (std::size_t i = 0; i < points.size(); ++i) {
     if (weights != nullptr && !(weights[i] > 0.0)) continue;
-    if (!internal::has_points(points[i]) || !under_horizon(points[i])) continue;
+    if (!internal::has_points(points[i]) || !GroundPoints::may_show(points[i])) continue;
     if (first == nullptr) first = &points[i];
     if ((points[i].x1 - first->x1).squaredNorm() > kCoincident * kCoincident) return true;
   }
@@ -32,7 +32,8 @@ const internal::KnownPlane kGround{Eigen::Vector3d(0.0, 1.0, 0.0), &under_horizo
 
 SolutionSet<PlanarPose, 1> relpose_2pc_ground(AcSpan points, const double* weights) {
   if (!spread(points, weights)) return {};
-  return internal::relpose_known_plane(kGround, points, weights, &internal::solve_optimal);
+  return internal::relpose_known_plane<GroundPoints, internal::PlaneForm::kOptimal>(points,
+                                                                                    weights);
 }
 
 }  // namespace oneac

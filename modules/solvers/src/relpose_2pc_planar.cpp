@@ -1,7 +1,7 @@
 #include "oneac/solvers/relpose_2pc_planar.h"
 
 #include "planar_entries.h"
-#include "planar_plane_system.h"
+#include "usable.h"
 
 #include <Eigen/Geometry>
 

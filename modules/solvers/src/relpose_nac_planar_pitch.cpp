@@ -1,5 +1,5 @@
 #include "pitched_essential.h"
-#include "planar_plane_system.h"
+#include "usable.h"
 
 #include "oneac/geometry/triangulation.h"
 #include "oneac/solvers/relpose_1ac_planar_pitch.h"

@@ -11,10 +11,16 @@ constexpr double kSingularPlaneGram = 2e-14;
 // Below this length [distances to the plane] t has no direction left: the normal equations keep
 // about nine digits on the worst points that are let through.
 constexpr double kNoPlaneMotion = 1e-8;
-// Halley's method on the secular equation takes two steps at 2 % affine noise and converges
-// cubically.
+// Halley's method on the secular equation takes two steps at 2 % affine noise. It converges
+// cubically: after a step of this share of the smallest eigenvalue the rest is 1e-12 of it.
 constexpr int kHalleySteps = 6;
-constexpr double kHalleyStep = 3e-6;
+constexpr double kHalleyStep = 1e-4;
+// Newton on the smallest eigenvalue takes two steps at 2 % affine noise; the rest is for noise so
+// large that steps are halved. The vector's error is the cube of its last change, and the square of
+// one so small that the second derivative is left out.
+constexpr int kEigenvalueSteps = 40;
+constexpr double kEigenvectorStep = 1e-4;
+constexpr double kLinearStep = 1e-6;
 // A determinant below this share of the squared trace is too near the hard case for Halley's
 // method.
 constexpr double kNearHardCase = 1e-7;

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "planar_plane_system.h"
+#include "usable.h"
 
 #include "oneac/solvers/relpose_1ac_ground.h"
 #include "oneac/solvers/solution_set.h"

@@ -1,14 +1,13 @@
 #include "oneac/study/noise.h"
 
+#include "oneac/geometry/angles.h"
+
 #include <Eigen/Geometry>
 
 #include <cmath>
 
 namespace oneac {
 namespace {
-
-constexpr double kPi = 3.141592653589793;
-constexpr double kRadPerDeg = kPi / 180.0;
 
 [[nodiscard]] Eigen::Matrix2d rotation(double angle) {
   const double c = std::cos(angle), s = std::sin(angle);
@@ -50,7 +49,7 @@ AffinityFactors affinity_factors(const Eigen::Matrix2d& A) {
 Eigen::Matrix2d noisy_affinity(const Eigen::Matrix2d& A, const NoiseLevel& level, NoiseShape shape,
                                TrialRandom& random) {
   AffinityFactors factors = affinity_factors(A);
-  const double angle = level.rotation_deg * kRadPerDeg;
+  const double angle = level.rotation_deg * kDegree;
   const double share = level.scale_percent / 100.0;
   const double error = error_of(angle, shape, random);
   factors.first += error;

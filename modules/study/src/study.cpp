@@ -2,6 +2,8 @@
 
 #include "oneac/base/nearest_name.h"
 #include "oneac/base/ordered_pipeline.h"
+#include "oneac/base/require.h"
+#include "oneac/geometry/angles.h"
 #include "oneac/study/trial.h"
 
 #include <algorithm>
@@ -11,7 +13,6 @@
 namespace oneac {
 namespace {
 
-constexpr double kDegPerRad = 180.0 / 3.141592653589793;
 constexpr std::array<StudyMetric, 3> kMetrics = {StudyMetric::rotation, StudyMetric::translation,
                                                  StudyMetric::normal};
 // A trial takes some 50 µs; more than this would take weeks.
@@ -74,21 +75,20 @@ void drop_incomplete(std::vector<ExperimentResult>& results) {
 }  // namespace
 
 void StudyOptions::validate() const {
-  const auto require = [](bool good, const std::string& message) {
-    if (!good) throw std::invalid_argument(message);
-  };
-  require(trials >= 1 && trials <= kMaxTrials,
-          "trials = " + std::to_string(trials) + ", must be 1 … " + std::to_string(kMaxTrials));
-  require(threads >= 1 && threads <= kMaxThreads,
-          "threads = " + std::to_string(threads) + ", must be 1 … " + std::to_string(kMaxThreads));
+  require(trials >= 1 && trials <= kMaxTrials, "trials", trials,
+          "1 … " + std::to_string(kMaxTrials));
+  require(threads >= 1 && threads <= kMaxThreads, "threads", threads,
+          "1 … " + std::to_string(kMaxThreads));
   std::vector<std::string> names = {"all"};
   for (const Figure& figure : oneac::figures()) names.push_back(figure.name());
   for (const std::string& wanted : figures) {
     const auto& known = oneac::figures();
     const bool found = std::any_of(known.begin(), known.end(),
                                    [&](const Figure& figure) { return asks_for(wanted, figure); });
-    require(found, "figure '" + wanted + "' is unknown, did you mean '" +
-                       nearest_name(wanted, names) + "'?");
+    if (!found) {
+      throw std::invalid_argument("figure '" + wanted + "' is unknown, did you mean '" +
+                                  nearest_name(wanted, names) + "'?");
+    }
   }
 }
 
@@ -139,7 +139,7 @@ PointResult run_point(const Experiment& experiment, std::size_t point,
           errors_of(experiment.methods[m], options.data_use, AcSpan(acs.data(), acs.size()), scene);
       if (!errors) continue;
       for (std::size_t i = 0; i < kMetrics.size(); ++i) {
-        lists[m].deg[i].push_back(errors->of(kMetrics[i]) * kDegPerRad);
+        lists[m].deg[i].push_back(errors->of(kMetrics[i]) / kDegree);
       }
     }
   }

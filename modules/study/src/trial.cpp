@@ -1,5 +1,6 @@
 #include "oneac/study/trial.h"
 
+#include "oneac/geometry/angles.h"
 #include "oneac/geometry/angular_errors.h"
 
 #include <Eigen/Geometry>
@@ -10,14 +11,13 @@
 namespace oneac {
 namespace {
 
-constexpr double kRadPerDeg = 3.141592653589793 / 180.0;
 // A visible point is found in two or three tries; far more means that the scene shows no plane.
 constexpr int kMaxTries = 100000;
 
 [[nodiscard]] Eigen::Vector3d normal_at(StudySurface surface, double angle_deg) {
   if (surface == StudySurface::ground) return Eigen::Vector3d::UnitY();
   if (surface == StudySurface::side_wall) return Eigen::Vector3d::UnitX();
-  const double angle = angle_deg * kRadPerDeg;  // 0 for a frontal wall
+  const double angle = angle_deg * kDegree;  // 0 for a frontal wall
   return {std::sin(angle), 0.0, std::cos(angle)};
 }
 
@@ -57,7 +57,7 @@ StudyScene scene_at(const Experiment& experiment, double value) {
   scene.noise = noise_at(experiment.sweep, value);
   if (experiment.sweep == StudySweep::tilt) {
     scene.T_2_1 =
-        RelativePose{pitch_rotation(value * kRadPerDeg), Eigen::Vector3d::Zero()} * scene.T_2_1;
+        RelativePose{pitch_rotation(value * kDegree), Eigen::Vector3d::Zero()} * scene.T_2_1;
   }
   return scene;
 }

@@ -1,5 +1,6 @@
 #include "oneac/study/noise.h"
 
+#include "oneac/geometry/angles.h"
 #include "oneac/geometry/homography.h"
 
 #include <gtest/gtest.h>
@@ -12,7 +13,6 @@
 namespace oneac {
 namespace {
 
-constexpr double kRadPerDeg = 3.141592653589793 / 180.0;
 constexpr int kDraws = 20000;
 
 Eigen::Matrix2d some_affinity() {
@@ -28,7 +28,7 @@ Eigen::Matrix3d some_homography() {
 }
 
 double wrapped(double angle) {
-  return std::remainder(angle, 3.141592653589793);
+  return std::remainder(angle, kPi);
 }
 
 /// What was done to the factors of A: the errors of both angles [rad] and of both singular values.
@@ -73,8 +73,8 @@ TEST(Noise, FixedErrorsAreExactlyTheLevelAndEitherSign) {
     const Errors e =
         errors_between(some_affinity(),
                        noisy_affinity(some_affinity(), {0.0, 5.0, 5.0}, NoiseShape::fixed, random));
-    EXPECT_NEAR(std::abs(e.first), 5.0 * kRadPerDeg, 1e-12);
-    EXPECT_NEAR(std::abs(e.second), 5.0 * kRadPerDeg, 1e-12);
+    EXPECT_NEAR(std::abs(e.first), 5.0 * kDegree, 1e-12);
+    EXPECT_NEAR(std::abs(e.second), 5.0 * kDegree, 1e-12);
     EXPECT_NEAR(std::abs(e.large), 0.05, 1e-12);
     EXPECT_NEAR(std::abs(e.small), 0.05, 1e-12);
     positive += e.first * e.second > 0.0 ? 1 : 0;  // signs of their own
@@ -89,7 +89,7 @@ TEST(Noise, UniformErrorsFillTheLevelAndAreIndependent) {
     const Errors e = errors_between(
         some_affinity(),
         noisy_affinity(some_affinity(), {0.0, 2.0, 3.0}, NoiseShape::uniform, random));
-    const double share = e.first / (2.0 * kRadPerDeg);
+    const double share = e.first / (2.0 * kDegree);
     sum += share;
     squares += share * share;
     product += e.first * e.second;
@@ -99,7 +99,7 @@ TEST(Noise, UniformErrorsFillTheLevelAndAreIndependent) {
   EXPECT_GT(most, 0.99);
   EXPECT_NEAR(sum / kDraws, 0.0, 0.02);
   EXPECT_NEAR(squares / kDraws, 1.0 / 3.0, 0.01);
-  EXPECT_NEAR(product / kDraws / std::pow(2.0 * kRadPerDeg, 2), 0.0, 0.02);
+  EXPECT_NEAR(product / kDraws / std::pow(2.0 * kDegree, 2), 0.0, 0.02);
 }
 
 TEST(Noise, NormalErrorsHaveTheLevelAsDeviation) {
@@ -117,7 +117,7 @@ TEST(Noise, NormalErrorsHaveTheLevelAsDeviation) {
         noisy_correspondence(some_homography(), x1, {0.5, 0.0, 0.0}, NoiseShape::normal, random);
     point += (ac.x2 - exact).squaredNorm();
   }
-  EXPECT_NEAR(std::sqrt(angle / kDraws), 2.0 * kRadPerDeg, 0.03 * 2.0 * kRadPerDeg);
+  EXPECT_NEAR(std::sqrt(angle / kDraws), 2.0 * kDegree, 0.03 * 2.0 * kDegree);
   EXPECT_NEAR(std::sqrt(share / kDraws), 0.03, 0.03 * 0.03);
   EXPECT_NEAR(std::sqrt(point / kDraws) * kStudyFocalPx, 0.5 * std::sqrt(2.0), 0.02);
 }

@@ -1,5 +1,7 @@
 #include "oneac/study/trial.h"
 
+#include "oneac/geometry/angles.h"
+
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -66,7 +68,7 @@ TEST(Trial, NoiseLevelsAreThoseOfThePaper) {
 TEST(Trial, TiltTurnsTheSecondCameraAboutItsXAxis) {
   const StudyScene scene = scene_at(experiment_named("tilt_ground"), 0.8);
   const Eigen::Matrix3d& R = scene.T_2_1.R;
-  EXPECT_NEAR(std::acos(0.5 * (R.trace() - 1.0)), 0.8 * 3.141592653589793 / 180.0, 1e-9);
+  EXPECT_NEAR(std::acos(0.5 * (R.trace() - 1.0)), 0.8 * kDegree, 1e-9);
   EXPECT_LT((R * Eigen::Vector3d::UnitX() - Eigen::Vector3d::UnitX()).norm(), 1e-15);
 }
 

@@ -15,7 +15,8 @@ namespace oneac {
 /// @return        at most one H, scaled to a middle singular value of one and such that x2ᵀ H x1 >
 /// 0 for most
 ///                points, ready for decompose_homography
-/// @degenerate    three of four points on a line, coincident points, singular H, not finite: empty
+/// @degenerate    three of four points on a line, coincident points, singular H, a rotation (no
+///                motion: the points say nothing about a plane), mirrored, not finite: empty
 /// @cost          about 1.5 µs for four, no allocation; pure, thread-safe
 [[nodiscard]] SolutionSet<Eigen::Matrix3d, 1> homography_4pc(AcSpan points,
                                                              const double* weights = nullptr);

@@ -1,0 +1,222 @@
+// Every solver of the registry against every degenerate input: what it returns is the table of
+// docs/solvers/README.md.
+
+#include "every_solver.h"
+
+#include "oneac/solvers/registry.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <limits>
+#include <string>
+
+namespace oneac {
+namespace {
+
+using namespace test;
+
+using Correspondences = std::vector<AffineCorrespondence>;
+constexpr int kScenes = 100;
+constexpr double kInf = std::numeric_limits<double>::infinity();
+
+/// Good correspondences of a scene and how they came about.
+struct Scene {
+  RelativePose T;
+  Plane plane;
+  Correspondences acs;
+};
+
+struct Degeneracy {
+  const char* name;
+  std::vector<Correspondences> (*inputs)(const EverySolver&, SceneGenerator&, const Scene&);
+};
+
+bool is_affine(const EverySolver& solver) {
+  return std::any_of(kSolvers.begin(), kSolvers.end(), [&](const SolverInfo& info) {
+    return info.name == solver.name && info.affine;
+  });
+}
+
+/// `value` in each entry of the first correspondence in turn; points only have four.
+std::vector<Correspondences> with_entry(const EverySolver& solver, const Scene& scene,
+                                        double value) {
+  const bool affine = is_affine(solver);
+  std::vector<Correspondences> list;
+  for (int i = 0; i < (affine ? 8 : 4); ++i) {
+    Correspondences acs = scene.acs;
+    if (i < 2) acs[0].x1(i) = value;
+    if (i >= 2 && i < 4) acs[0].x2(i - 2) = value;
+    if (i >= 4) acs[0].A((i - 4) / 2, i % 2) = value;
+    list.push_back(acs);
+  }
+  return list;
+}
+
+std::vector<Correspondences> nan_entries(const EverySolver& s, SceneGenerator&, const Scene& c) {
+  return with_entry(s, c, std::nan(""));
+}
+
+std::vector<Correspondences> infinite_entries(const EverySolver& s, SceneGenerator&,
+                                              const Scene& c) {
+  auto list = with_entry(s, c, kInf);
+  for (auto& acs : with_entry(s, c, -kInf)) list.push_back(acs);
+  return list;
+}
+
+std::vector<Correspondences> zeros(const EverySolver&, SceneGenerator&, const Scene& c) {
+  const AffineCorrespondence zero{{0, 0}, {0, 0}, Eigen::Matrix2d::Zero()};
+  return {Correspondences(c.acs.size(), zero)};
+}
+
+/// All points on the horizon, and at a distance from it that is rounding.
+std::vector<Correspondences> horizon(const EverySolver& solver, SceneGenerator& scene,
+                                     const Scene& c) {
+  std::vector<Correspondences> list;
+  for (const double y : {0.0, 1e-14}) {
+    Correspondences acs;
+    while (acs.size() < c.acs.size()) {
+      const Plane plane = solver.surface == Surface::kAny ? scene.any_plane() : c.plane;
+      const auto H = plane_induced_homography(c.T, plane);
+      const auto ac = correspondence_from_homography(H, {scene.image_point().x(), y});
+      if (ac) acs.push_back(*ac);
+    }
+    list.push_back(acs);
+  }
+  return list;
+}
+
+/// A turn of the kind that the solver's motion allows.
+std::vector<Correspondences> pure_rotation_of(const EverySolver& solver, SceneGenerator&,
+                                              const Scene& c) {
+  const Eigen::Matrix3d R =
+      solver.motion == Motion::kCircular ? yaw_rotation(0.98, 0.19900) : c.T.R;
+  Correspondences acs;
+  for (const AffineCorrespondence& ac : c.acs) {
+    if (const auto seen = correspondence_from_homography(R, ac.x1)) acs.push_back(*seen);
+  }
+  return {acs};
+}
+
+std::vector<Correspondences> no_motion(const EverySolver&, SceneGenerator&, const Scene& c) {
+  Correspondences acs = c.acs;
+  for (AffineCorrespondence& ac : acs) ac = {ac.x1, ac.x1, Eigen::Matrix2d::Identity()};
+  return {acs};
+}
+
+std::vector<Correspondences> coincident(const EverySolver&, SceneGenerator&, const Scene& c) {
+  return {Correspondences(c.acs.size(), c.acs[0])};
+}
+
+/// All correspondences on one and the same plane.
+std::vector<Correspondences> coincident_planes(const EverySolver& solver, SceneGenerator& scene,
+                                               const Scene& c) {
+  EverySolver on_plane = solver;
+  if (solver.surface == Surface::kAny) on_plane.surface = Surface::kPlane;
+  return {correspondences_of(on_plane, scene, c.T, scene.any_plane())};
+}
+
+/// The second view mirrored.
+std::vector<Correspondences> reflection(const EverySolver&, SceneGenerator&, const Scene& c) {
+  Correspondences acs = c.acs;
+  for (AffineCorrespondence& ac : acs) {
+    ac.x2.x() = -ac.x2.x();
+    ac.A.row(0) = -ac.A.row(0);
+  }
+  return {acs};
+}
+
+const std::vector<Degeneracy>& degeneracies() {
+  static const std::vector<Degeneracy> kList = {
+      {"NaN", &nan_entries},       {"±Inf", &infinite_entries},          {"all zero", &zeros},
+      {"horizon", &horizon},       {"pure rotation", &pure_rotation_of}, {"no motion", &no_motion},
+      {"coincident", &coincident}, {"one plane", &coincident_planes},    {"mirrored", &reflection},
+  };
+  return kList;
+}
+
+/// "empty" when it never returns anything, "–" when the case is not degenerate for the solver.
+std::string behaviour(const EverySolver& solver, const Degeneracy& degeneracy) {
+  if (solver.count == 1 && degeneracy.inputs == &coincident) return "–";
+  if (solver.surface != Surface::kAny && degeneracy.inputs == &coincident_planes) return "–";
+  if (solver.count == 1 && degeneracy.inputs == &coincident_planes) return "–";
+  SceneGenerator scene(77);
+  int answered = 0, asked = 0;
+  for (int i = 0; i < kScenes; ++i) {
+    Scene c{motion_of(solver, scene), plane_of(solver, scene), {}};
+    c.acs = correspondences_of(solver, scene, c.T, c.plane);
+    for (const Correspondences& acs : degeneracy.inputs(solver, scene, c)) {
+      if (acs.size() != c.acs.size()) continue;  // turned out of sight
+      const Answer answer = solver.solve(AcSpan(acs));
+      for (const RelativePose& pose : answer.poses) {
+        EXPECT_TRUE(pose.is_finite()) << solver.name << ", " << degeneracy.name << ", scene " << i;
+      }
+      ++asked;
+      answered += answer.solutions > 0 ? 1 : 0;
+    }
+  }
+  EXPECT_GE(asked, kScenes / 2) << solver.name << ", " << degeneracy.name;
+  return answered == 0 ? "empty" : "answers";
+}
+
+std::string table() {
+  std::string text = "| solver |", rule = "|---|";
+  for (const Degeneracy& degeneracy : degeneracies()) {
+    text += " " + std::string(degeneracy.name) + " |";
+    rule += "---|";
+  }
+  text += "\n" + rule + "\n";
+  for (const EverySolver& solver : every_solver()) {
+    text += "| `" + std::string(solver.name) + "` |";
+    for (const Degeneracy& degeneracy : degeneracies()) {
+      text += " " + behaviour(solver, degeneracy) + " |";
+    }
+    text += "\n";
+  }
+  return text;
+}
+
+TEST(DegenerateInputs, EverySolverOfTheRegistryIsInTheTable) {
+  ASSERT_EQ(every_solver().size(), kSolvers.size());
+  for (std::size_t i = 0; i < kSolvers.size(); ++i) {
+    EXPECT_EQ(every_solver()[i].name, kSolvers[i].name);
+    EXPECT_EQ(every_solver()[i].count, kSolvers[i].correspondences);
+  }
+}
+
+TEST(DegenerateInputs, TableOfTheDocumentationIsWhatTheSolversDo) {
+  std::ifstream in(std::filesystem::path(ONEAC_SOLVER_PAGES) / "README.md");
+  ASSERT_TRUE(in);
+  const std::string text((std::istreambuf_iterator<char>(in)), std::istreambuf_iterator<char>());
+  const std::string begin = "<!-- degenerate inputs: degenerate_inputs_test -->\n";
+  const std::string end = "<!-- end of degenerate inputs -->\n";
+  const std::size_t from = text.find(begin);
+  const std::size_t to = text.find(end);
+  ASSERT_TRUE(from != std::string::npos && to != std::string::npos);
+  EXPECT_EQ(text.substr(from + begin.size(), to - from - begin.size()), table());
+}
+
+TEST(DegenerateInputs, WhatASolverCanSeeGivesNothing) {
+  for (const EverySolver& solver : every_solver()) {
+    for (const Degeneracy& degeneracy : degeneracies()) {
+      const std::string name = degeneracy.name;
+      const std::string found = behaviour(solver, degeneracy);
+      const bool always = name == "NaN" || name == "±Inf" || name == "all zero" ||
+                          name == "no motion" || name == "coincident";
+      // One point of a camera that turned is one of a car on a circle.
+      const bool turned =
+          name == "pure rotation" && solver.name != std::string_view("relpose_1pc_ackermann");
+      const bool mirrored = name == "mirrored" && is_affine(solver);
+      const bool flat = name == "horizon" && solver.motion != Motion::kGeneral;
+      if (always || turned || mirrored || flat) {
+        EXPECT_NE(found, "answers") << solver.name << ", " << name;
+      }
+    }
+  }
+}
+
+}  // namespace
+}  // namespace oneac
