@@ -1,19 +1,54 @@
 #include "levelled_acs.h"
 
-#include "oneac/geometry/homography.h"
-
 #include <algorithm>
 
 namespace oneac::internal {
 
+namespace {
+
+/// A point seen by a camera turned by Q, and the derivative of its new place by the old one.
+struct Turned {
+  double u, v, ux, uy, vx, vy, depth;
+
+  Turned(const Eigen::Matrix3d& Q, double x, double y)
+      : depth(Q(2, 0) * x + Q(2, 1) * y + Q(2, 2)) {
+    const double inverse = 1.0 / depth;
+    u = (Q(0, 0) * x + Q(0, 1) * y + Q(0, 2)) * inverse;
+    v = (Q(1, 0) * x + Q(1, 1) * y + Q(1, 2)) * inverse;
+    ux = (Q(0, 0) - u * Q(2, 0)) * inverse;
+    uy = (Q(0, 1) - u * Q(2, 1)) * inverse;
+    vx = (Q(1, 0) - v * Q(2, 0)) * inverse;
+    vy = (Q(1, 1) - v * Q(2, 1)) * inverse;
+  }
+};
+
+// Smallest depth of a point in front of the turned camera, as in geometry's rotate_views.
+constexpr double kInFront = 1e-6;
+
+}  // namespace
+
 LevelledAcs::LevelledAcs(AcSpan acs, const Eigen::Matrix3d& R_level_cam) {
-  for (auto& entries : level_) entries.reserve(acs.size());
-  for (const AffineCorrespondence& tilted : acs) {
-    const auto ac = rotate_views(tilted, R_level_cam, R_level_cam);
-    if (!ac) continue;
-    const double entries[8] = {ac->x1.x(),  ac->x1.y(),  ac->x2.x(),  ac->x2.y(),
-                               ac->A(0, 0), ac->A(0, 1), ac->A(1, 0), ac->A(1, 1)};
-    for (std::size_t k = 0; k < 8; ++k) level_[k].push_back(entries[k]);
+  for (auto& entries : level_) entries.resize(acs.size());
+  for (const AffineCorrespondence& ac : acs) {
+    const Turned a(R_level_cam, ac.x1.x(), ac.x1.y());
+    const Turned b(R_level_cam, ac.x2.x(), ac.x2.y());
+    const double det = a.ux * a.vy - a.uy * a.vx;
+    if (!(a.depth > kInFront && b.depth > kInFront && det > 0.0)) continue;
+    // A' = B A C⁻¹ with the derivatives B and C of the second and the first view.
+    const double c11 = ac.A(0, 0) * a.vy - ac.A(0, 1) * a.vx;
+    const double c12 = ac.A(0, 1) * a.ux - ac.A(0, 0) * a.uy;
+    const double c21 = ac.A(1, 0) * a.vy - ac.A(1, 1) * a.vx;
+    const double c22 = ac.A(1, 1) * a.ux - ac.A(1, 0) * a.uy;
+    const double inverse = 1.0 / det;
+    const double entries[8] = {a.u,
+                               a.v,
+                               b.u,
+                               b.v,
+                               (b.ux * c11 + b.uy * c21) * inverse,
+                               (b.ux * c12 + b.uy * c22) * inverse,
+                               (b.vx * c11 + b.vy * c21) * inverse,
+                               (b.vx * c12 + b.vy * c22) * inverse};
+    for (std::size_t k = 0; k < 8; ++k) level_[k][size_] = entries[k];
     ++size_;
   }
 }
@@ -23,24 +58,15 @@ void LevelledAcs::turn_second_view(const Eigen::Matrix3d& Q, const Stride& share
   for (auto& entries : turned_) entries.resize(count);
   for (std::size_t k = 0; k < count; ++k) {
     const std::size_t i = share.first + k * share.step;
-    const double x = level_[kX2][i];
-    const double y = level_[kY2][i];
-    const double inverse = 1.0 / (Q(2, 0) * x + Q(2, 1) * y + Q(2, 2));
-    const double u = (Q(0, 0) * x + Q(0, 1) * y + Q(0, 2)) * inverse;
-    const double v = (Q(1, 0) * x + Q(1, 1) * y + Q(1, 2)) * inverse;
-    // Derivative of (u, v) with respect to (x, y).
-    const double ux = (Q(0, 0) - u * Q(2, 0)) * inverse;
-    const double uy = (Q(0, 1) - u * Q(2, 1)) * inverse;
-    const double vx = (Q(1, 0) - v * Q(2, 0)) * inverse;
-    const double vy = (Q(1, 1) - v * Q(2, 1)) * inverse;
+    const Turned t(Q, level_[kX2][i], level_[kY2][i]);
     turned_[kX1][k] = level_[kX1][i];
     turned_[kY1][k] = level_[kY1][i];
-    turned_[kX2][k] = u;
-    turned_[kY2][k] = v;
-    turned_[kA11][k] = ux * level_[kA11][i] + uy * level_[kA21][i];
-    turned_[kA12][k] = ux * level_[kA12][i] + uy * level_[kA22][i];
-    turned_[kA21][k] = vx * level_[kA11][i] + vy * level_[kA21][i];
-    turned_[kA22][k] = vx * level_[kA12][i] + vy * level_[kA22][i];
+    turned_[kX2][k] = t.u;
+    turned_[kY2][k] = t.v;
+    turned_[kA11][k] = t.ux * level_[kA11][i] + t.uy * level_[kA21][i];
+    turned_[kA12][k] = t.ux * level_[kA12][i] + t.uy * level_[kA22][i];
+    turned_[kA21][k] = t.vx * level_[kA11][i] + t.vy * level_[kA21][i];
+    turned_[kA22][k] = t.vx * level_[kA12][i] + t.vy * level_[kA22][i];
   }
 }
 
@@ -64,13 +90,11 @@ PointArrays<float> LevelledAcs::sample(std::size_t count, const Eigen::Matrix3d&
   for (auto& column : sample_) column.assign(padded, 0.0F);
   for (std::size_t k = 0; k < used; ++k) {
     const std::size_t i = k * size_ / used;
-    const double x = level_[kX2][i];
-    const double y = level_[kY2][i];
-    const double inverse = 1.0 / (Q(2, 0) * x + Q(2, 1) * y + Q(2, 2));
+    const Turned t(Q, level_[kX2][i], level_[kY2][i]);
     sample_[0][k] = static_cast<float>(level_[kX1][i]);
     sample_[1][k] = static_cast<float>(level_[kY1][i]);
-    sample_[2][k] = static_cast<float>((Q(0, 0) * x + Q(0, 1) * y + Q(0, 2)) * inverse);
-    sample_[3][k] = static_cast<float>((Q(1, 0) * x + Q(1, 1) * y + Q(1, 2)) * inverse);
+    sample_[2][k] = static_cast<float>(t.u);
+    sample_[3][k] = static_cast<float>(t.v);
     sample_[4][k] = 1.0F;
   }
   return {sample_[0].data(), sample_[1].data(), sample_[2].data(),

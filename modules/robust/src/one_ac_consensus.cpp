@@ -31,6 +31,10 @@ constexpr std::size_t kShortList = 128;
 constexpr double kWideLoss = 3.0;
 constexpr int kWideIterations = 4;
 constexpr int kNarrowIterations = 6;
+// Modes closer than both after the first pass are in one basin: a point at 40° moves by half a
+// pixel at f = 700 px.
+constexpr double kMetRotationDeg = 0.05;
+constexpr double kMetDirectionDeg = 1.0;
 // Steps of the first passes need not be finer than the last pass [rad].
 constexpr double kCoarseStep = 1e-5;
 
@@ -54,14 +58,6 @@ PointSet evenly_spaced(AcSpan acs, std::size_t count) {
   return PointSet(some);
 }
 
-double cost_of(const RelativePose& pose, const PointSet& points, double threshold, double give_up) {
-  return msac_cost(essential_matrix(pose), points, threshold, give_up);
-}
-
-bool cheaper(const Candidate& a, const Candidate& b) {
-  return a.cost < b.cost;
-}
-
 /// Directions of t are compared without their sign: it is decided at the end.
 bool same_mode(const RelativePose& a, const RelativePose& b, double cos_rotation,
                double cos_direction) {
@@ -69,49 +65,64 @@ bool same_mode(const RelativePose& a, const RelativePose& b, double cos_rotation
   return 0.5 * (trace - 1.0) > cos_rotation && std::abs(a.t.dot(b.t)) > cos_direction;
 }
 
-/// The best of each basin, at most `modes`. @param sorted  best first
-std::vector<Candidate> distinct_modes(const std::vector<Candidate>& sorted,
-                                      const ConsensusOptions& options) {
-  const double cos_rotation = std::cos(options.mode_rotation_deg * kDegree);
-  const double cos_direction = std::cos(options.mode_direction_deg * kDegree);
-  std::vector<Candidate> modes;
+/// How close two poses are to count as one, as cosines.
+struct Closeness {
+  double cos_rotation, cos_direction;
+
+  Closeness(double rotation_deg, double direction_deg)
+      : cos_rotation(std::cos(rotation_deg * kDegree)),
+        cos_direction(std::cos(direction_deg * kDegree)) {}
+};
+
+/// The first of each group of close poses, at most `count`. @param sorted  best first
+std::vector<Candidate> distinct(const std::vector<Candidate>& sorted, const Closeness& close,
+                                int count) {
+  std::vector<Candidate> kept;
   for (const Candidate& candidate : sorted) {
-    if (modes.size() >= static_cast<std::size_t>(options.modes)) break;
-    const bool known = std::any_of(modes.begin(), modes.end(), [&](const Candidate& mode) {
-      return same_mode(mode.pose, candidate.pose, cos_rotation, cos_direction);
+    if (kept.size() >= static_cast<std::size_t>(count)) break;
+    const bool known = std::any_of(kept.begin(), kept.end(), [&](const Candidate& mode) {
+      return same_mode(mode.pose, candidate.pose, close.cos_rotation, close.cos_direction);
     });
-    if (!known) modes.push_back(candidate);
+    if (!known) kept.push_back(candidate);
   }
-  return modes;
+  return kept;
 }
 
-/// Polishes each candidate in single precision, scores it on all points and sorts.
-void polish_all(std::vector<Candidate>& candidates, const Problem& p, const PointSet& points,
-                double scale, int iterations) {
+void rank(std::vector<Candidate>& candidates, const PointSet& points, double threshold) {
+  for (Candidate& c : candidates) {
+    c.cost = msac_cost(essential_matrix(c.pose), points, threshold,
+                       std::numeric_limits<double>::infinity());
+  }
+  std::stable_sort(candidates.begin(), candidates.end(),
+                   [](const Candidate& a, const Candidate& b) { return a.cost < b.cost; });
+}
+
+void polish_all(std::vector<Candidate>& candidates, const PointSet& points, double scale,
+                int iterations) {
   for (Candidate& c : candidates) {
     c.pose = polish_coarsely(c.pose, points, {scale, iterations, kCoarseStep}).pose;
-    c.cost = cost_of(c.pose, p.points, p.threshold, std::numeric_limits<double>::infinity());
   }
-  std::stable_sort(candidates.begin(), candidates.end(), cheaper);
 }
 
-/// The best pose after polishing. Empty when no correspondence gave a hypothesis.
+/// Best first. Empty when no correspondence gave a hypothesis.
 std::vector<Candidate> ranked_modes(const Problem& p, RobustStatistics& statistics) {
   internal::SearchResult found =
       internal::search_poses(p.acs, p.R_level_cam, p.threshold, kShortList, p.options);
   statistics.iterations = found.solved;
   statistics.hypotheses = found.hypotheses;
-  for (Candidate& c : found.best) {
-    c.cost =
-        cost_of(c.pose, p.points, kWideLoss * p.threshold, std::numeric_limits<double>::infinity());
-  }
-  std::stable_sort(found.best.begin(), found.best.end(), cheaper);
-  std::vector<Candidate> modes = distinct_modes(found.best, p.options);
+  const double wide = kWideLoss * p.threshold;
+  rank(found.best, p.sample, wide);
+  std::vector<Candidate> modes = distinct(
+      found.best, {p.options.mode_rotation_deg, p.options.mode_direction_deg}, p.options.modes);
   statistics.local_optimisations = modes.size();
-  polish_all(modes, p, p.sample, kWideLoss * p.threshold, kWideIterations);
-  modes.resize(std::min(modes.size(), static_cast<std::size_t>(p.options.finalists)));
-  polish_all(modes, p, p.points, p.threshold, kNarrowIterations);
-  return modes;
+  polish_all(modes, p.sample, wide, kWideIterations);
+  rank(modes, p.sample, p.threshold);
+  // Modes of one basin have met by now.
+  std::vector<Candidate> finalists =
+      distinct(modes, {kMetRotationDeg, kMetDirectionDeg}, p.options.finalists);
+  polish_all(finalists, p.points, p.threshold, kNarrowIterations);
+  rank(finalists, p.points, p.threshold);
+  return finalists;
 }
 
 /// The consensus of correspondences that are all finite.

@@ -18,8 +18,8 @@ namespace oneac::internal {
 namespace {
 
 constexpr double kDegree = 3.14159265358979323846 / 180.0;
-// Points of the first score: with 80 % outliers still about twenty that the true motion explains.
-constexpr std::size_t kSample = 96;
+// Points of the first score: with 80 % outliers still a dozen that the true motion explains.
+constexpr std::size_t kSample = 64;
 // Width of the first score against the threshold: half a step of the sweep moves the points by
 // about two pixels.
 constexpr double kSampleWidth = 2.0;
