@@ -1,9 +1,12 @@
 #include "oneac/features/ac_extractor.h"
 
+#include "feature_mask.h"
+
 #include "oneac/features/feature_options.h"
+#include "oneac/features/sift_extractor.h"
 #include "oneac/features/vlfeat_extractor.h"
 
-#include <cmath>
+#include <algorithm>
 #include <stdexcept>
 
 namespace oneac {
@@ -31,16 +34,45 @@ void VlfeatOptions::validate() const {
   require(max_features > 0, "vlfeat.max_features", max_features, "positive");
 }
 
+void KltOptions::validate() const {
+  require(max_tracks > 0, "klt.max_tracks", max_tracks, "positive");
+  require(levels >= 2 && levels <= 6, "klt.levels", levels, "from 2 to 6");
+  require(min_distance_px >= 1.0, "klt.min_distance_px", min_distance_px, "at least 1");
+  require(forward_backward_px > 0.0, "klt.forward_backward_px", forward_backward_px, "positive");
+  require(min_zncc > 0.0 && min_zncc < 1.0, "klt.min_zncc", min_zncc, "in (0, 1)");
+  require(max_affine_sigma > 0.0, "klt.max_affine_sigma", max_affine_sigma, "positive");
+  require(drift_zncc > 0.0 && drift_zncc < 1.0, "klt.drift_zncc", drift_zncc, "in (0, 1)");
+  require(standing_px >= 0.0, "klt.standing_px", standing_px, "at least 0");
+  require(static_frames > 0, "klt.static_frames", static_frames, "positive");
+}
+
+void MaskOptions::validate() const {
+  static_cast<void>(internal::FeatureMask({polygon, ""}));  // reads the polygons, no file
+}
+
 void FeatureOptions::validate() const {
-  if (extractor != "vlfeat") {
-    throw std::invalid_argument("features.extractor = '" + extractor + "', must be vlfeat");
+  const auto& known = extractor_names();
+  if (std::find(known.begin(), known.end(), extractor) == known.end()) {
+    throw std::invalid_argument("features.extractor = '" + extractor +
+                                "', must be klt, vlfeat, vlfeat+align or sift");
   }
+  klt.validate();
   vlfeat.validate();
   match.validate();
+  mask.validate();
+}
+
+const std::vector<std::string>& extractor_names() {
+  static const std::vector<std::string> names = {"klt", "vlfeat", "vlfeat+align", "sift"};
+  return names;
 }
 
 std::unique_ptr<AcExtractor> make_extractor(const FeatureOptions& options) {
   options.validate();
+  if (options.extractor == "klt") {
+    throw std::invalid_argument("features.extractor = 'klt' tracks, it has no pairs: make_tracker");
+  }
+  if (options.extractor == "sift") return std::make_unique<SiftExtractor>(options);
   return std::make_unique<VlfeatExtractor>(options);
 }
 

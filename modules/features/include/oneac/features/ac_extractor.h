@@ -38,7 +38,11 @@ class AcExtractor {
 
 struct FeatureOptions;
 
-/// Makes the extractor named in the options.
+/// What FeatureOptions::extractor may be: klt, vlfeat, vlfeat+align, sift.
+[[nodiscard]] const std::vector<std::string>& extractor_names();
+
+/// Makes the matching part of the extractor named in the options ("klt" has none, and the alignment
+/// of "vlfeat+align" and "sift" is make_tracker()'s).
 /// @throws std::invalid_argument when the name or an option is not valid
 [[nodiscard]] std::unique_ptr<AcExtractor> make_extractor(const FeatureOptions& options);
 

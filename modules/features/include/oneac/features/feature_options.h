@@ -26,12 +26,37 @@ struct VlfeatOptions {
   void validate() const;
 };
 
+/// Tracked corners with photometrically aligned patches.
+struct KltOptions {
+  int max_tracks = 700;  ///< some are lost from frame to frame: 500…600 correspondences remain
+  int levels = 5;        ///< of the image pyramid: the coarsest sees 50 px of motion without a hint
+  double min_distance_px = 10;     ///< [px] between corners: half a window, patches still differ
+  double forward_backward_px = 1;  ///< [px] half a pixel of the level that it is tested at
+  double min_zncc = 0.8;           ///< [-] 0.8: a fifth of the contrast is unexplained
+  double max_affine_sigma = 0.05;  ///< [-] 1σ of an entry of A; worse ones are refused
+  double drift_zncc = 0.7;         ///< [-] against the first patch of the track
+  double standing_px = 0.15;       ///< [px] median shift of near-identical images
+  int static_frames = 5;           ///< a point that stays that long while it must move is no scene
+
+  void validate() const;
+};
+
+/// Parts of the image that are not used.
+struct MaskOptions {
+  std::string polygon;  ///< corners "u,v u,v u,v" [px], several polygons separated by ';'
+  std::string image;    ///< grey picture of the camera's size: what is darker than 128 is not used
+
+  void validate() const;
+};
+
 /// How affine correspondences are made. validate() throws std::invalid_argument naming field,
 /// value and bound.
 struct FeatureOptions {
-  std::string extractor = "vlfeat";  ///< "vlfeat"
+  std::string extractor = "klt";  ///< "klt", "vlfeat", "vlfeat+align" or "sift"
+  KltOptions klt;
   VlfeatOptions vlfeat;
   MatchOptions match;
+  MaskOptions mask;
 
   void validate() const;
 };
@@ -54,10 +79,31 @@ void describe(Visitor&& visit, VlfeatOptions& o) {
 }
 
 template <class Visitor>
+void describe(Visitor&& visit, KltOptions& o) {
+  visit("max_tracks", o.max_tracks, "count", "corners followed at a time");
+  visit("levels", o.levels, "count", "levels of the image pyramid");
+  visit("min_distance_px", o.min_distance_px, "px", "between corners");
+  visit("forward_backward_px", o.forward_backward_px, "px", "largest error of the way back");
+  visit("min_zncc", o.min_zncc, "-", "least correlation of aligned patches");
+  visit("max_affine_sigma", o.max_affine_sigma, "-", "largest 1-sigma of an entry of A");
+  visit("drift_zncc", o.drift_zncc, "-", "least correlation with a track's first patch");
+  visit("standing_px", o.standing_px, "px", "median shift of near-identical images");
+  visit("static_frames", o.static_frames, "frames", "points at rest for so long are dropped");
+}
+
+template <class Visitor>
+void describe(Visitor&& visit, MaskOptions& o) {
+  visit("polygon", o.polygon, "px", "not used: \"u,v u,v u,v\", several separated by ;");
+  visit("image", o.image, "path", "picture whose dark pixels are not used");
+}
+
+template <class Visitor>
 void describe(Visitor&& visit, FeatureOptions& o) {
-  visit("extractor", o.extractor, "name", "vlfeat");
+  visit("extractor", o.extractor, "name", "klt, vlfeat, vlfeat+align or sift");
+  visit.section("klt", o.klt);
   visit.section("vlfeat", o.vlfeat);
   visit.section("match", o.match);
+  visit.section("mask", o.mask);
 }
 
 }  // namespace oneac

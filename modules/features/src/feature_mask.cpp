@@ -1,0 +1,90 @@
+#include "feature_mask.h"
+
+#include "oneac/base/error.h"
+
+#include <opencv2/core.hpp>
+#include <opencv2/imgcodecs.hpp>
+
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <locale>
+#include <sstream>
+#include <stdexcept>
+
+namespace oneac::internal {
+namespace {
+
+constexpr std::uint8_t kUsed = 128;  // half of white
+
+[[noreturn]] void refuse(const std::string& text) {
+  throw std::invalid_argument("mask.polygon = '" + text +
+                              "', must be corners \"u,v u,v u,v\", at least three");
+}
+
+Eigen::Vector2d read_corner(const std::string& word, const std::string& all) {
+  std::istringstream in(word);
+  in.imbue(std::locale::classic());
+  Eigen::Vector2d u;
+  char comma = 0, rest = 0;
+  if (!(in >> u.x() >> comma >> u.y()) || comma != ',' || in >> rest) refuse(all);
+  return u;
+}
+
+/// Whether a ray to the right crosses the outline an odd number of times.
+bool inside(const std::vector<Eigen::Vector2d>& polygon, const Eigen::Vector2d& u) {
+  bool odd = false;
+  for (std::size_t i = 0, j = polygon.size() - 1; i < polygon.size(); j = i++) {
+    const Eigen::Vector2d &a = polygon[i], &b = polygon[j];
+    if ((a.y() > u.y()) == (b.y() > u.y())) continue;
+    if (u.x() < a.x() + (b.x() - a.x()) * (u.y() - a.y()) / (b.y() - a.y())) odd = !odd;
+  }
+  return odd;
+}
+
+GreyImage read_picture(const std::string& path) {
+  cv::Mat picture;  // imread would print its own complaint about a missing file
+  if (std::filesystem::is_regular_file(path)) picture = cv::imread(path, cv::IMREAD_GRAYSCALE);
+  if (picture.empty()) {
+    throw InputError(path, "the mask cannot be read as a picture", "give a PNG file in mask.image");
+  }
+  return GreyImage(
+      ImageView{picture.data, picture.cols, picture.rows, static_cast<int>(picture.step)});
+}
+
+}  // namespace
+
+FeatureMask::FeatureMask(const MaskOptions& options) : path_(options.image) {
+  std::istringstream polygons(options.polygon);
+  for (std::string part; std::getline(polygons, part, ';');) {
+    std::istringstream words(part);
+    Polygon polygon;
+    for (std::string word; words >> word;) polygon.push_back(read_corner(word, options.polygon));
+    if (polygon.size() < 3) refuse(options.polygon);
+    polygons_.push_back(std::move(polygon));
+  }
+  if (!path_.empty()) picture_ = read_picture(path_);
+}
+
+bool FeatureMask::usable(const Eigen::Vector2d& u) const {
+  for (const Polygon& polygon : polygons_) {
+    if (inside(polygon, u)) return false;
+  }
+  if (picture_.empty()) return true;
+  const auto column = static_cast<int>(std::lround(u.x()));
+  const auto row = static_cast<int>(std::lround(u.y()));
+  if (column < 0 || row < 0 || column >= picture_.width() || row >= picture_.height()) return false;
+  return picture_.row(row)[column] >= kUsed;
+}
+
+void FeatureMask::require_size(int width, int height) const {
+  if (picture_.empty() || (picture_.width() == width && picture_.height() == height)) return;
+  throw InputError(path_,
+                   "the mask has " + std::to_string(picture_.width()) + "x" +
+                       std::to_string(picture_.height()) + " pixels, the images " +
+                       std::to_string(width) + "x" + std::to_string(height),
+                   "make it of the same size");
+}
+
+}  // namespace oneac::internal

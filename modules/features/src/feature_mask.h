@@ -1,0 +1,32 @@
+#pragma once
+
+#include "oneac/base/image.h"
+#include "oneac/features/feature_options.h"
+
+#include <Eigen/Core>
+
+#include <string>
+#include <vector>
+
+namespace oneac::internal {
+
+/// Parts of the image that are not used: polygons and a picture.
+class FeatureMask {
+ public:
+  /// @throws std::invalid_argument when a polygon cannot be read, InputError when the picture can
+  /// not
+  explicit FeatureMask(const MaskOptions& options);
+
+  [[nodiscard]] bool usable(const Eigen::Vector2d& u) const;
+  /// @throws InputError when the picture's size is not that of the camera's images
+  void require_size(int width, int height) const;
+
+ private:
+  using Polygon = std::vector<Eigen::Vector2d>;
+
+  std::vector<Polygon> polygons_;
+  std::string path_;
+  GreyImage picture_;
+};
+
+}  // namespace oneac::internal

@@ -1,0 +1,19 @@
+#pragma once
+
+#include "klt_track.h"
+#include "motion_prediction.h"
+#include "patch_flow.h"
+
+#include <optional>
+#include <vector>
+
+namespace oneac::internal {
+
+/// Finds all tracks of the first image in the second: old tracks first, from their last motion;
+/// then fresh ones, from their neighbours' motion and from the hint; then once more what was not
+/// found, from the neighbours found meanwhile. One match per track, in their order.
+[[nodiscard]] std::vector<std::optional<PatchMatch>> search_tracks(
+    const std::vector<KltTrack>& tracks, const ImagePyramid& first, const ImagePyramid& second,
+    const MotionPrediction& motion, const KltOptions& options);
+
+}  // namespace oneac::internal

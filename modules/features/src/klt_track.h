@@ -1,0 +1,32 @@
+#pragma once
+
+#include "corner_grid.h"
+#include "patch_alignment.h"
+
+#include "oneac/features/ac_extractor.h"
+
+#include <cstdint>
+#include <memory>
+
+namespace oneac::internal {
+
+/// What is kept of one image.
+class KltFrame : public FrameFeatures {
+ public:
+  ImagePyramid pyramid;
+  CornerGrid corners;
+};
+
+/// A patch that is being followed.
+struct KltTrack {
+  std::uint64_t id = 0;
+  int age = 0;                                      ///< pairs it has lived through
+  Eigen::Vector2d u = Eigen::Vector2d::Zero();      ///< in the anchor frame [px]
+  Eigen::Vector2d flow = Eigen::Vector2d::Zero();   ///< of the last pair [px]
+  Eigen::Matrix2d A = Eigen::Matrix2d::Identity();  ///< of the last pair
+  Eigen::Matrix2d A_now_reference = Eigen::Matrix2d::Identity();
+  std::unique_ptr<AnchoredPatch> reference;  ///< first patch; renewed when scale changes
+  int at_rest = 0;                           ///< pairs it rested while it had to move
+};
+
+}  // namespace oneac::internal

@@ -1,0 +1,209 @@
+#include "klt_tracker.h"
+
+#include "flow_search.h"
+#include "point_bins.h"
+#include "standing.h"
+
+#include <Eigen/LU>
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+namespace oneac::internal {
+namespace {
+
+// The first patch is compared while the scale is within this factor; then the current one takes its
+// place. Beyond it resampling alone changes a patch.
+constexpr double kReferenceScale = 1.5;
+constexpr int kRounds = 4;      // corners per cell before the search for corners ends
+constexpr double kMerge = 0.5;  // tracks nearer than half the corners' distance are one
+
+double median_flow(const std::vector<KltTrack>& tracks,
+                   const std::vector<std::optional<PatchMatch>>& matches) {
+  std::vector<double> flows;
+  for (std::size_t i = 0; i < tracks.size(); ++i) {
+    if (matches[i]) flows.push_back((matches[i]->warp.centre - tracks[i].u).norm());
+  }
+  if (flows.empty()) return 0.0;
+  const auto middle = flows.begin() + static_cast<std::ptrdiff_t>(flows.size() / 2);
+  std::nth_element(flows.begin(), middle, flows.end());
+  return *middle;
+}
+
+void append(TrackedPair& pair, const KltTrack& track, const PatchMatch& match) {
+  pair.acs.push_back({track.u, match.warp.centre, match.warp.M});
+  pair.tracks.push_back(track.id);
+  pair.affine_sigma.push_back(static_cast<float>(match.quality.affine_sigma));
+  pair.point_sigma.push_back(static_cast<float>(match.quality.point_sigma));
+}
+
+}  // namespace
+
+KltTracker::KltTracker(const FeatureOptions& options)
+    : options_(options), mask_(options.mask), static_points_(options.klt.static_frames) {}
+
+std::shared_ptr<const FrameFeatures> KltTracker::prepare(const ImageView& image) const {
+  mask_.require_size(image.width, image.height);
+  auto frame = std::make_shared<KltFrame>();
+  frame->pyramid = build_pyramid(image, options_.klt.levels);
+  frame->corners = find_corners(frame->pyramid, cell_px(frame->pyramid),
+                                [this](const Eigen::Vector2d& u) { return mask_.usable(u); });
+  return frame;
+}
+
+TrackedPair KltTracker::advance(std::shared_ptr<const FrameFeatures> now, const MotionHint& hint) {
+  const auto frame = std::dynamic_pointer_cast<const KltFrame>(now);
+  if (!frame) throw std::invalid_argument("advance: the frame was not prepared by this tracker");
+  if (anchor_ && (anchor_->pyramid.width() != frame->pyramid.width() ||
+                  anchor_->pyramid.height() != frame->pyramid.height())) {
+    throw std::invalid_argument("advance: the images differ in size, call reset() between them");
+  }
+  TrackedPair pair;
+  if (!anchor_) {
+    frame_ = 0;
+  } else {
+    ++frame_;
+    if (is_standing(tracks_, anchor_->pyramid, frame->pyramid, options_.klt.standing_px)) {
+      return stand();
+    }
+    const MotionPrediction motion(hint);
+    pair = take(*frame, motion, follow(*frame, motion));
+  }
+  anchor_ = frame;
+  replenish(*frame);
+  return pair;
+}
+
+TrackedPair KltTracker::stand() {
+  TrackedPair pair;
+  pair.standing = true;
+  for (KltTrack& track : tracks_) {
+    PatchMatch same;
+    same.warp.centre = track.u;
+    append(pair, track, same);
+    history_.extend(track.id, frame_, track.u, Eigen::Matrix2d::Identity());
+  }
+  return pair;
+}
+
+KltTracker::Matches KltTracker::follow(const KltFrame& now, const MotionPrediction& motion) const {
+  return search_tracks(tracks_, anchor_->pyramid, now.pyramid, motion, options_.klt);
+}
+
+TrackedPair KltTracker::take(const KltFrame& now, const MotionPrediction& motion,
+                             const Matches& matches) {
+  static_points_.begin_pair(frame_, median_flow(tracks_, matches));
+  TrackedPair pair;
+  std::vector<KltTrack> kept;
+  PointBins taken(now.pyramid.width(), now.pyramid.height(), options_.klt.min_distance_px);
+  for (std::size_t i = 0; i < tracks_.size(); ++i) {
+    KltTrack& track = tracks_[i];
+    if (!matches[i] || !holds(track, now, *matches[i])) continue;
+    const Eigen::Vector2d& u2 = matches[i]->warp.centre;
+    const bool rests = static_points_.rests(track, u2 - track.u, motion);
+    if (static_points_.is_static(track)) {
+      static_points_.block(cell_of(now, u2));
+      continue;
+    }
+    if (!taken.is_free(u2, kMerge * options_.klt.min_distance_px)) continue;
+    taken.add(u2);
+    if (!rests) append(pair, track, *matches[i]);
+    history_.extend(track.id, frame_, u2, matches[i]->warp.M);
+    track.A = matches[i]->warp.M;
+    track.flow = u2 - track.u;
+    track.u = u2;
+    ++track.age;
+    kept.push_back(std::move(track));
+  }
+  tracks_ = std::move(kept);
+  history_.end_all_but(frame_);
+  return pair;
+}
+
+bool KltTracker::holds(KltTrack& track, const KltFrame& now, const PatchMatch& match) const {
+  if (!mask_.usable(match.warp.centre)) return false;
+  track.A_now_reference = match.warp.M * track.A_now_reference;
+  const double scale = std::sqrt(std::abs(track.A_now_reference.determinant()));
+  if (track.reference && scale < kReferenceScale && scale > 1.0 / kReferenceScale) {
+    PatchWarp warp;
+    warp.M = track.A_now_reference;
+    warp.centre = match.warp.centre;
+    const double zncc = compare_patch(*track.reference, now.pyramid, warp);
+    return zncc >= options_.klt.drift_zncc || zncc < -0.999;  // −1: sticks out of the image
+  }
+  auto renewed = std::make_unique<AnchoredPatch>();
+  if (!anchor_adapted(now.pyramid, match.warp.centre, *renewed)) return false;
+  track.reference = std::move(renewed);
+  track.A_now_reference.setIdentity();
+  return true;
+}
+
+void KltTracker::start_track(const KltFrame& now, const Eigen::Vector2d& u) {
+  KltTrack track;
+  track.reference = std::make_unique<AnchoredPatch>();
+  if (!anchor_adapted(now.pyramid, u, *track.reference)) return;
+  track.id = next_id_++;
+  track.u = u;
+  history_.start(track.id, frame_, u);
+  tracks_.push_back(std::move(track));
+}
+
+void KltTracker::replenish(const KltFrame& now) {
+  const auto limit = static_cast<std::size_t>(options_.klt.max_tracks);
+  const double distance = options_.klt.min_distance_px;
+  PointBins taken(now.pyramid.width(), now.pyramid.height(), distance);
+  std::vector<int> in_cell(now.corners.cells.size(), 0);
+  for (const KltTrack& track : tracks_) {
+    taken.add(track.u);
+    ++in_cell[cell_of(now, track.u)];
+  }
+  for (int round = 1; round <= kRounds && tracks_.size() < limit; ++round) {
+    std::vector<Corner> offers;  // at most one per cell and round
+    for (std::size_t cell = 0; cell < in_cell.size(); ++cell) {
+      if (in_cell[cell] >= round || static_points_.is_blocked(cell)) continue;
+      for (const Corner& corner : now.corners.cells[cell]) {
+        if (!taken.is_free(corner.u, distance)) continue;
+        offers.push_back(corner);
+        break;
+      }
+    }
+    std::stable_sort(offers.begin(), offers.end(),
+                     [](const Corner& a, const Corner& b) { return a.score > b.score; });
+    for (const Corner& corner : offers) {
+      if (tracks_.size() >= limit) break;
+      if (!taken.is_free(corner.u, distance)) continue;
+      taken.add(corner.u);
+      ++in_cell[cell_of(now, corner.u)];
+      start_track(now, corner.u);
+    }
+  }
+}
+
+std::optional<AffineCorrespondence> KltTracker::between(std::uint64_t track, std::size_t frame1,
+                                                        std::size_t frame2) const {
+  return history_.between(track, frame1, frame2);
+}
+
+void KltTracker::reset() {
+  anchor_.reset();
+  tracks_.clear();
+  history_.clear();
+  static_points_.clear();
+  frame_ = 0;
+}
+
+int KltTracker::cell_px(const ImagePyramid& pyramid) const {
+  const double area = static_cast<double>(pyramid.width()) * pyramid.height();
+  return std::max(8, static_cast<int>(std::lround(std::sqrt(area / options_.klt.max_tracks))));
+}
+
+std::size_t KltTracker::cell_of(const KltFrame& frame, const Eigen::Vector2d& u) const {
+  const int cell = cell_px(frame.pyramid);
+  const int column = std::clamp(static_cast<int>(u.x()) / cell, 0, frame.corners.columns - 1);
+  const int row = std::clamp(static_cast<int>(u.y()) / cell, 0, frame.corners.rows - 1);
+  return static_cast<std::size_t>(row) * static_cast<std::size_t>(frame.corners.columns) +
+         static_cast<std::size_t>(column);
+}
+
+}  // namespace oneac::internal

@@ -1,0 +1,56 @@
+#pragma once
+
+#include "feature_mask.h"
+#include "klt_track.h"
+#include "patch_flow.h"
+#include "static_points.h"
+#include "track_history.h"
+
+#include "oneac/features/ac_tracker.h"
+
+#include <memory>
+#include <optional>
+#include <vector>
+
+namespace oneac::internal {
+
+/// Grid-balanced corners, followed coarse to fine and aligned photometrically.
+///
+/// Each pair is measured from the patch of the frame before, so errors do not add up in a pair; the
+/// first patch of a track only guards against drift. While the camera stands, the frame before the
+/// stop remains the anchor, so that creeping adds up instead of vanishing.
+class KltTracker : public AcTracker {
+ public:
+  explicit KltTracker(const FeatureOptions& options);
+
+  [[nodiscard]] std::shared_ptr<const FrameFeatures> prepare(const ImageView& image) const override;
+  [[nodiscard]] TrackedPair advance(std::shared_ptr<const FrameFeatures> now,
+                                    const MotionHint& hint) override;
+  [[nodiscard]] std::optional<AffineCorrespondence> between(std::uint64_t track, std::size_t frame1,
+                                                            std::size_t frame2) const override;
+  void reset() override;
+
+ private:
+  using Matches = std::vector<std::optional<PatchMatch>>;
+
+  [[nodiscard]] TrackedPair stand();
+  [[nodiscard]] Matches follow(const KltFrame& now, const MotionPrediction& motion) const;
+  [[nodiscard]] TrackedPair take(const KltFrame& now, const MotionPrediction& motion,
+                                 const Matches& matches);
+  [[nodiscard]] bool holds(KltTrack& track, const KltFrame& now, const PatchMatch& match) const;
+  void replenish(const KltFrame& now);
+  void start_track(const KltFrame& now, const Eigen::Vector2d& u);
+  [[nodiscard]] int cell_px(const ImagePyramid& pyramid) const;
+  [[nodiscard]] std::size_t cell_of(const KltFrame& frame, const Eigen::Vector2d& u) const;
+
+  FeatureOptions options_;
+  FeatureMask mask_;
+  std::shared_ptr<const KltFrame> anchor_;
+  std::vector<KltTrack> tracks_;  ///< oldest first
+  TrackHistory history_;
+  StaticPoints static_points_;
+  std::uint64_t next_id_ = 0;
+  std::size_t frame_ = 0;  ///< index of the frame given last
+};
+
+}  // namespace oneac::internal

@@ -1,0 +1,98 @@
+#include "matched_tracker.h"
+
+#include "patch_flow.h"
+
+#include <algorithm>
+#include <stdexcept>
+
+namespace oneac::internal {
+namespace {
+
+constexpr int kAlignmentLevels = 2;
+
+double median_shift(const std::vector<AffineCorrespondence>& acs) {
+  if (acs.empty()) return 1e9;  // nothing in common is no standing car
+  std::vector<double> shifts;
+  shifts.reserve(acs.size());
+  for (const auto& ac : acs) shifts.push_back((ac.x2 - ac.x1).norm());
+  const auto middle = shifts.begin() + static_cast<std::ptrdiff_t>(shifts.size() / 2);
+  std::nth_element(shifts.begin(), middle, shifts.end());
+  return *middle;
+}
+
+}  // namespace
+
+MatchedTracker::MatchedTracker(const FeatureOptions& options,
+                               std::unique_ptr<AcExtractor> extractor, bool align)
+    : options_(options), mask_(options.mask), extractor_(std::move(extractor)), align_(align) {}
+
+std::shared_ptr<const FrameFeatures> MatchedTracker::prepare(const ImageView& image) const {
+  mask_.require_size(image.width, image.height);
+  auto frame = std::make_shared<Frame>();
+  frame->features = extractor_->prepare(image);
+  if (align_) frame->pyramid = build_pyramid(image, kAlignmentLevels);
+  return frame;
+}
+
+bool MatchedTracker::usable(const AffineCorrespondence& ac) const {
+  return mask_.usable(ac.x1) && mask_.usable(ac.x2);
+}
+
+void MatchedTracker::append(const AffineCorrespondence& matched,
+                            const AffineCorrespondence& aligned,
+                            const std::map<Place, std::uint64_t>& known, TrackedPair& pair) {
+  const auto found = known.find({matched.x1.x(), matched.x1.y()});
+  const std::uint64_t id = found != known.end() ? found->second : next_id_++;
+  if (found == known.end()) history_.start(id, frame_ - 1, aligned.x1);
+  history_.extend(id, frame_, aligned.x2, aligned.A);
+  tracks_[{matched.x2.x(), matched.x2.y()}] = id;
+  pair.acs.push_back(aligned);
+  pair.tracks.push_back(id);
+}
+
+TrackedPair MatchedTracker::advance(std::shared_ptr<const FrameFeatures> now, const MotionHint&) {
+  const auto frame = std::dynamic_pointer_cast<const Frame>(now);
+  if (!frame) throw std::invalid_argument("advance: the frame was not prepared by this tracker");
+  TrackedPair pair;
+  frame_ = last_ ? frame_ + 1 : 0;
+  if (last_) {
+    const std::map<Place, std::uint64_t> known = std::move(tracks_);
+    tracks_.clear();
+    PatchFlow flow(last_->pyramid, frame->pyramid, options_.klt);
+    for (const auto& ac : extractor_->correspond(*last_->features, *frame->features)) {
+      if (!usable(ac)) continue;
+      AffineCorrespondence aligned = ac;
+      AlignmentQuality quality;
+      if (align_) {
+        PatchWarp warp;
+        warp.M = ac.A;
+        warp.centre = ac.x2;
+        const auto match = flow.refine(ac.x1, warp);
+        if (!match) continue;
+        aligned = {ac.x1, match->warp.centre, match->warp.M};
+        quality = match->quality;
+      }
+      append(ac, aligned, known, pair);
+      pair.affine_sigma.push_back(static_cast<float>(quality.affine_sigma));
+      pair.point_sigma.push_back(static_cast<float>(quality.point_sigma));
+    }
+    history_.end_all_but(frame_);
+    pair.standing = median_shift(pair.acs) < options_.klt.standing_px;
+  }
+  last_ = frame;
+  return pair;
+}
+
+std::optional<AffineCorrespondence> MatchedTracker::between(std::uint64_t track, std::size_t frame1,
+                                                            std::size_t frame2) const {
+  return history_.between(track, frame1, frame2);
+}
+
+void MatchedTracker::reset() {
+  last_.reset();
+  tracks_.clear();
+  history_.clear();
+  frame_ = 0;
+}
+
+}  // namespace oneac::internal

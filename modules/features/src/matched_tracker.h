@@ -1,0 +1,53 @@
+#pragma once
+
+#include "feature_mask.h"
+#include "image_pyramid.h"
+#include "track_history.h"
+
+#include "oneac/features/ac_tracker.h"
+#include "oneac/features/feature_options.h"
+
+#include <map>
+#include <memory>
+#include <utility>
+
+namespace oneac::internal {
+
+/// An extractor that matches pairs, as a tracker: a feature of the middle frame that takes part in
+/// two pairs carries the track on. Optionally each match is aligned photometrically, which moves x2
+/// and A; x1 stays the feature's place, so x2 of one pair and x1 of the next differ by the
+/// detector's error.
+class MatchedTracker : public AcTracker {
+ public:
+  MatchedTracker(const FeatureOptions& options, std::unique_ptr<AcExtractor> extractor, bool align);
+
+  [[nodiscard]] std::shared_ptr<const FrameFeatures> prepare(const ImageView& image) const override;
+  [[nodiscard]] TrackedPair advance(std::shared_ptr<const FrameFeatures> now,
+                                    const MotionHint& hint) override;
+  [[nodiscard]] std::optional<AffineCorrespondence> between(std::uint64_t track, std::size_t frame1,
+                                                            std::size_t frame2) const override;
+  void reset() override;
+
+ private:
+  struct Frame : FrameFeatures {
+    std::shared_ptr<const FrameFeatures> features;
+    ImagePyramid pyramid;  ///< when aligned
+  };
+  using Place = std::pair<double, double>;  ///< a feature's centre: the same bytes in both pairs
+
+  [[nodiscard]] bool usable(const AffineCorrespondence& ac) const;
+  void append(const AffineCorrespondence& matched, const AffineCorrespondence& aligned,
+              const std::map<Place, std::uint64_t>& known, TrackedPair& pair);
+
+  FeatureOptions options_;
+  FeatureMask mask_;
+  std::unique_ptr<AcExtractor> extractor_;
+  bool align_;
+  std::shared_ptr<const Frame> last_;
+  std::map<Place, std::uint64_t> tracks_;  ///< by the place in the last frame
+  TrackHistory history_;
+  std::uint64_t next_id_ = 0;
+  std::size_t frame_ = 0;
+};
+
+}  // namespace oneac::internal

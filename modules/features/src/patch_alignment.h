@@ -1,0 +1,43 @@
+#pragma once
+
+#include "patch_window.h"
+
+namespace oneac::internal {
+
+/// A patch of the first image at one level, made ready for alignment.
+struct AnchoredPatch {
+  const PatchWindow* window = nullptr;
+  std::size_t level = 0;
+  PatchTemplate patch;
+};
+
+/// Takes the patch at u [px of level 0]. False when it sticks out of the image or is blank.
+[[nodiscard]] bool anchor_patch(const ImagePyramid& pyramid, std::size_t level,
+                                const PatchWindow& window, const Eigen::Vector2d& u,
+                                AnchoredPatch& patch);
+
+/// How well a patch lies in the other image.
+struct AlignmentQuality {
+  double zncc = -1.0;         ///< zero-mean normalised cross-correlation, window's weights
+  double affine_sigma = 0.0;  ///< 1σ of an entry of A [-]; root mean square of the four
+  double point_sigma = 0.0;   ///< 1σ of the point per axis [px of level 0]
+};
+
+/// Inverse compositional alignment of shift, gain and bias; M stays. False when it leaves the
+/// image, diverges or the patch does not determine it. `warp` is where it starts and where it ends.
+[[nodiscard]] bool align_shift(const AnchoredPatch& patch, const ImagePyramid& image,
+                               PatchWarp& warp, AlignmentQuality& quality);
+
+/// The same for all six affine parameters; then once more with Tukey's weights from the residuals,
+/// and with the covariance when `robust`.
+[[nodiscard]] bool align_affine(const AnchoredPatch& patch, const ImagePyramid& image, bool robust,
+                                PatchWarp& warp, AlignmentQuality& quality);
+
+/// Zero-mean normalised cross-correlation with the other image at a warp as it is; −1 outside.
+[[nodiscard]] double compare_patch(const AnchoredPatch& patch, const ImagePyramid& image,
+                                   const PatchWarp& warp);
+
+/// 1σ of an entry of A that alignment of this patch would have under noise of one grey level.
+[[nodiscard]] double expected_affine_sigma(const AnchoredPatch& patch);
+
+}  // namespace oneac::internal

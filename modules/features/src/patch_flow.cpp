@@ -1,0 +1,137 @@
+#include "patch_flow.h"
+
+#include <Eigen/LU>
+
+#include <algorithm>
+#include <cmath>
+
+namespace oneac::internal {
+namespace {
+
+// [px of the level] window of the shift: 113 samples see texture enough for two unknowns.
+constexpr double kFlowRadius = 6.0;
+constexpr double kCoarseAffineRadius = 7.0;  // [px of level 1]
+constexpr double kFits = 0.9;                // [ZNCC] a guess that fits so well ends the search
+constexpr double kDoubtful = 0.5;        // [ZNCC at level 1] below it no guess has found the patch
+constexpr double kCapture = 3.0;         // [px of the level] half a window
+constexpr double kMaxCorrection = 4.0;   // [px] affine alignment only polishes what the flow found
+constexpr double kMaxDeformation = 0.6;  // [-] |A − A0|: beyond it the linearisation is fiction
+// Windows at level 0, and the σ of an entry of A [-] under noise of one grey level that makes the
+// next larger one unnecessary: noise of 2 grey levels in both images then leaves A better than
+// 0.01.
+constexpr double kRadii[] = {8.0, 11.0, 14.0};
+constexpr double kGoodSigma = 0.0025;
+
+const PatchWindow& flow_window() {
+  static const PatchWindow window = round_window(kFlowRadius);
+  return window;
+}
+
+const PatchWindow& coarse_affine_window() {
+  static const PatchWindow window = round_window(kCoarseAffineRadius);
+  return window;
+}
+
+const PatchWindow& fine_window(std::size_t i) {
+  static const std::array<PatchWindow, 3> windows = {
+      round_window(kRadii[0]), round_window(kRadii[1]), round_window(kRadii[2])};
+  return windows[i];
+}
+
+}  // namespace
+
+bool anchor_adapted(const ImagePyramid& image, const Eigen::Vector2d& u, AnchoredPatch& patch) {
+  constexpr std::size_t kCount = std::size(kRadii);
+  for (std::size_t i = 0; i < kCount; ++i) {
+    if (!anchor_patch(image, 0, fine_window(i), u, patch)) {
+      return i > 0 && anchor_patch(image, 0, fine_window(i - 1), u, patch);
+    }
+    if (i + 1 == kCount || expected_affine_sigma(patch) < kGoodSigma) break;
+  }
+  return true;
+}
+
+const AnchoredPatch* PatchFlow::patch_at(std::size_t level, const Eigen::Vector2d& u1) {
+  if (state_[level] == 0) {
+    state_[level] = anchor_patch(first_, level, flow_window(), u1, patches_[level]) ? 1 : -1;
+  }
+  return state_[level] == 1 ? &patches_[level] : nullptr;
+}
+
+std::optional<PatchFlow::Found> PatchFlow::descend(const Eigen::Vector2d& u1,
+                                                   const FlowGuess& guess) {
+  Found found{guess.warp, -1.0};
+  const std::size_t top = std::min({guess.level, first_.levels.size() - 1, kMaxLevels - 1});
+  for (std::size_t level = top; level >= 1; --level) {
+    const AnchoredPatch* patch = patch_at(level, u1);
+    if (patch == nullptr) {
+      if (level > 1) continue;  // blank when shrunk so far: the next level may show something
+      return std::nullopt;
+    }
+    AlignmentQuality quality;
+    PatchWarp warp = found.warp;
+    if (align_shift(*patch, second_, warp, quality)) {
+      found = {warp, quality.zncc};
+    } else if (level == 1) {
+      return std::nullopt;
+    }
+  }
+  return found;
+}
+
+bool PatchFlow::returns(const Eigen::Vector2d& u1, const FlowGuess& guess,
+                        const PatchWarp& found) const {
+  PatchWarp back;
+  back.M = guess.warp.M.inverse();
+  back.centre = found.centre - (guess.warp.centre - u1);
+  AnchoredPatch patch;
+  AlignmentQuality quality;
+  // The way back starts as far off as the guess was, at the level that captures so much.
+  const double error = (found.centre - guess.warp.centre).norm();
+  const std::size_t top = std::min(guess.level, first_.levels.size() - 1);
+  std::size_t level = 1;
+  while (level < top && error > kCapture * std::ldexp(1.0, static_cast<int>(level))) ++level;
+  for (; level >= 1; --level) {
+    if (!anchor_patch(second_, level, flow_window(), found.centre, patch)) continue;
+    if (!align_shift(patch, first_, back, quality) && level == 1) return false;
+  }
+  return (back.centre - u1).norm() <= options_.forward_backward_px;
+}
+
+std::optional<PatchMatch> PatchFlow::find(const Eigen::Vector2d& u1,
+                                          const std::vector<FlowGuess>& guesses) {
+  state_.fill(0);
+  Found best;
+  const FlowGuess* origin = nullptr;
+  for (const FlowGuess& guess : guesses) {
+    const auto found = descend(u1, guess);
+    if (!found || found->zncc <= best.zncc) continue;
+    best = *found;
+    origin = &guess;
+    if (best.zncc > kFits) break;
+  }
+  if (best.zncc < kDoubtful || !returns(u1, *origin, best.warp)) return std::nullopt;
+  return refine(u1, best.warp);
+}
+
+std::optional<PatchMatch> PatchFlow::refine(const Eigen::Vector2d& u1, const PatchWarp& start) {
+  AnchoredPatch patch;
+  PatchMatch match{start, {}};
+  if (first_.levels.size() > 1 && anchor_patch(first_, 1, coarse_affine_window(), u1, patch)) {
+    PatchWarp warp = start;
+    if (align_affine(patch, second_, false, warp, match.quality) &&
+        match.quality.zncc >= options_.min_zncc) {
+      match.warp = warp;
+    }
+  }
+  if (!anchor_adapted(first_, u1, patch)) return std::nullopt;
+  if (!align_affine(patch, second_, true, match.warp, match.quality)) return std::nullopt;
+  const bool good = match.quality.zncc >= options_.min_zncc &&
+                    match.quality.affine_sigma <= options_.max_affine_sigma &&
+                    (match.warp.centre - start.centre).norm() <= kMaxCorrection &&
+                    (match.warp.M - start.M).norm() <= kMaxDeformation;
+  if (!good) return std::nullopt;
+  return match;
+}
+
+}  // namespace oneac::internal

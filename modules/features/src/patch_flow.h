@@ -1,0 +1,62 @@
+#pragma once
+
+#include "patch_alignment.h"
+
+#include "oneac/features/feature_options.h"
+
+#include <array>
+#include <optional>
+#include <vector>
+
+namespace oneac::internal {
+
+/// A place to start looking: the warp expected, and the pyramid level whose capture range (about
+/// half a window, 3 px · 2^level) covers its error.
+struct FlowGuess {
+  PatchWarp warp;
+  std::size_t level = 0;
+};
+
+/// A patch found in the other image.
+struct PatchMatch {
+  PatchWarp warp;
+  AlignmentQuality quality;
+};
+
+/// Finds one patch of the first image in the second.
+class PatchFlow {
+ public:
+  PatchFlow(const ImagePyramid& first, const ImagePyramid& second, const KltOptions& options)
+      : first_(first), second_(second), options_(options) {}
+
+  /// Coarse to fine from the guesses, in turn, until one fits; forward-backward gate; affine
+  /// alignment. Empty when any gate refuses.
+  [[nodiscard]] std::optional<PatchMatch> find(const Eigen::Vector2d& u1,
+                                               const std::vector<FlowGuess>& guesses);
+  /// Affine alignment alone, from a warp already close (matched features).
+  [[nodiscard]] std::optional<PatchMatch> refine(const Eigen::Vector2d& u1, const PatchWarp& start);
+
+ private:
+  static constexpr std::size_t kMaxLevels = 6;
+  struct Found {
+    PatchWarp warp;
+    double zncc = -1.0;
+  };
+
+  [[nodiscard]] const AnchoredPatch* patch_at(std::size_t level, const Eigen::Vector2d& u1);
+  [[nodiscard]] std::optional<Found> descend(const Eigen::Vector2d& u1, const FlowGuess& guess);
+  [[nodiscard]] bool returns(const Eigen::Vector2d& u1, const FlowGuess& guess,
+                             const PatchWarp& found) const;
+
+  const ImagePyramid& first_;
+  const ImagePyramid& second_;
+  const KltOptions& options_;
+  std::array<AnchoredPatch, kMaxLevels> patches_;
+  std::array<int, kMaxLevels> state_{};  ///< 0 not made, 1 usable, −1 not usable
+};
+
+/// The patch at level 0 in the smallest window that determines its affinity well.
+[[nodiscard]] bool anchor_adapted(const ImagePyramid& image, const Eigen::Vector2d& u,
+                                  AnchoredPatch& patch);
+
+}  // namespace oneac::internal

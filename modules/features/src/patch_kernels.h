@@ -1,0 +1,90 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+namespace oneac::internal {
+
+/// Sums run in this many partial sums, whatever the width of the machine's registers, and are then
+/// added in a fixed order: the same bytes at every level.
+constexpr std::size_t kPatchLanes = 16;
+constexpr std::size_t kMaxSamples = 640;
+constexpr std::size_t kMaxRows = 29;  ///< side of the largest window [px]
+constexpr std::size_t kOverrun = 16;  ///< room for the register that ends behind the last sample
+constexpr std::size_t kAffineParameters = 8;       ///< A (row by row), shift, gain, bias
+constexpr std::size_t kTranslationParameters = 4;  ///< shift, gain, bias
+
+/// Samples of a round window around a point. Unused samples at the end have weight 0.
+struct PatchWindow {
+  std::size_t size = 0;  ///< multiple of kPatchLanes
+  float radius = 0.0F;   ///< [px]
+  float weight_sum = 0.0F;
+  std::size_t rows = 0;             ///< 2 floor(radius) + 1, the samples come row by row
+  std::size_t row_begin[kMaxRows];  ///< first column of a row, from the left of the square one
+                                    ///< pixel wider than the window
+  std::size_t row_size[kMaxRows];
+  alignas(64) float x[kMaxSamples];       ///< [px]
+  alignas(64) float y[kMaxSamples];       ///< [px]
+  alignas(64) float weight[kMaxSamples];  ///< [-]
+};
+
+/// Where samples are taken: pixel of the window's point d is A d + (u, v) + origin. u, v hold the
+/// fraction of a pixel and an offset that keeps them positive over the window.
+struct SampleGrid {
+  const std::uint16_t* data;
+  std::int32_t origin;  ///< index of the pixel that u = v = 0 means
+  std::int32_t stride;  ///< [pixels]
+  float a11, a12, a21, a22, u, v;
+};
+
+/// A patch with mean 0 and standard deviation 1 over the window, and its gradient.
+struct PatchTemplate {
+  float mean = 0.0F;      ///< [1/16 grey]
+  float contrast = 0.0F;  ///< standard deviation [1/16 grey]
+  alignas(64) float value[kMaxSamples + kOverrun];
+  alignas(64) float gx[kMaxSamples + kOverrun];  ///< [1/px]
+  alignas(64) float gy[kMaxSamples + kOverrun];  ///< [1/px]
+};
+
+/// What one pass over the window gives: Σ w r J for the parameters in the order above, J for A in
+/// units of the window's radius.
+struct AlignmentSums {
+  float gradient[kAffineParameters];
+  float squares = 0.0F;   ///< Σ w r²
+  float absolute = 0.0F;  ///< Σ w |r|
+};
+
+/// The loops over samples, compiled once per instruction set.
+struct PatchKernels {
+  /// Samples image and gradient at the grid (A must be the identity) and normalises.
+  void (*make_template)(const SampleGrid& grid, const PatchWindow& window, PatchTemplate& patch);
+  /// r = (image − bias) / gain − template, into `residual`, and the sums with the given weights.
+  void (*residuals)(const SampleGrid& grid, const PatchWindow& window, const PatchTemplate& patch,
+                    const float* weight, float gain, float bias, float* residual,
+                    AlignmentSums& sums);
+  /// Σ w J Jᵀ, upper triangle row by row: 36 and 10 numbers.
+  void (*affine_normal)(const PatchWindow& window, const PatchTemplate& patch, const float* weight,
+                        float* upper);
+  void (*translation_normal)(const PatchWindow& window, const PatchTemplate& patch,
+                             const float* weight, float* upper);
+  /// Tukey's weights times the window's: w (1 − (r/c)²)² inside c, 0 outside.
+  void (*tukey)(const PatchWindow& window, const float* residual, float inverse_c, float* weight);
+};
+
+/// Instruction sets the kernels exist for.
+enum class PatchLevel { kBaseline, kAvx2, kAvx512 };
+
+/// Whether this build and processor have the level.
+[[nodiscard]] bool has_patch_level(PatchLevel level);
+/// @pre has_patch_level(level)
+[[nodiscard]] const PatchKernels& patch_kernels(PatchLevel level);
+/// The fastest of this processor.
+[[nodiscard]] const PatchKernels& patch_kernels();
+
+extern const PatchKernels kPatchKernelsBaseline;
+#ifdef ONEAC_PATCH_X86
+extern const PatchKernels kPatchKernelsAvx2;
+extern const PatchKernels kPatchKernelsAvx512;
+#endif
+
+}  // namespace oneac::internal

@@ -1,0 +1,100 @@
+#pragma once
+
+#include "patch_kernels.h"
+
+#if defined(__x86_64__)
+#include <immintrin.h>
+#endif
+
+// Included by one source per instruction set, which defines ONEAC_PATCH_WIDTH (4, 8 or 16 floats).
+// Everything lives in an unnamed namespace and nothing inline of the standard library is used: the
+// linker must not take a function compiled for AVX as the one for all.
+namespace oneac::internal {
+namespace {
+
+constexpr std::size_t kWidth = ONEAC_PATCH_WIDTH;
+static_assert(kPatchLanes % kWidth == 0);
+
+typedef float Floats __attribute__((vector_size(4 * ONEAC_PATCH_WIDTH)));
+typedef std::int32_t Ints __attribute__((vector_size(4 * ONEAC_PATCH_WIDTH)));
+typedef std::uint32_t Bits __attribute__((vector_size(4 * ONEAC_PATCH_WIDTH)));
+
+inline Floats load(const float* from) {
+  Floats lanes;
+  __builtin_memcpy(&lanes, from, sizeof lanes);
+  return lanes;
+}
+
+inline void store(const Floats& lanes, float* to) {
+  __builtin_memcpy(to, &lanes, sizeof lanes);
+}
+
+inline Floats magnitude(const Floats& x) {
+  return x < 0.0F ? -x : x;
+}
+
+/// Two neighbouring pixels of 16 bits per lane: the left one in the lower half.
+inline Bits load_pairs(const std::uint16_t* data, const Ints& index) {
+#if ONEAC_PATCH_WIDTH == 16
+  return reinterpret_cast<Bits>(_mm512_mask_i32gather_epi32(
+      _mm512_setzero_si512(), 0xFFFF, reinterpret_cast<__m512i>(index), data, 2));
+#elif ONEAC_PATCH_WIDTH == 8
+  return reinterpret_cast<Bits>(_mm256_i32gather_epi32(reinterpret_cast<const int*>(data),
+                                                       reinterpret_cast<__m256i>(index), 2));
+#else
+  Bits pairs;
+  for (std::size_t i = 0; i < kWidth; ++i) {
+    std::uint32_t pair;
+    __builtin_memcpy(&pair, data + index[i], sizeof pair);
+#if __BYTE_ORDER__ == __ORDER_BIG_ENDIAN__
+    pair = (pair >> 16) | (pair << 16);
+#endif
+    pairs[i] = pair;
+  }
+  return pairs;
+#endif
+}
+
+/// Neighbouring pixels.
+inline Floats load_row(const std::uint16_t* from) {
+  typedef std::uint16_t Pixels __attribute__((vector_size(2 * ONEAC_PATCH_WIDTH)));
+  Pixels pixels;
+  __builtin_memcpy(&pixels, from, sizeof pixels);
+  return __builtin_convertvector(__builtin_convertvector(pixels, Ints), Floats);
+}
+
+inline Floats to_floats(const Bits& bits) {
+  return __builtin_convertvector(reinterpret_cast<const Ints&>(bits), Floats);
+}
+
+/// Bilinear interpolation at pixel (u, v) of the grid. @pre u, v ≥ 0
+inline Floats interpolate(const SampleGrid& grid, const Floats& u, const Floats& v) {
+  const Ints column = __builtin_convertvector(u, Ints);
+  const Ints row = __builtin_convertvector(v, Ints);
+  const Floats fu = u - __builtin_convertvector(column, Floats);
+  const Floats fv = v - __builtin_convertvector(row, Floats);
+  const Ints index = row * grid.stride + column + grid.origin;
+  const Bits upper = load_pairs(grid.data, index);
+  const Bits lower = load_pairs(grid.data, index + grid.stride);
+  const Floats upper_left = to_floats(upper & 0xFFFFU);
+  const Floats lower_left = to_floats(lower & 0xFFFFU);
+  const Floats top = upper_left + fu * (to_floats(upper >> 16) - upper_left);
+  const Floats bottom = lower_left + fu * (to_floats(lower >> 16) - lower_left);
+  return top + fv * (bottom - top);
+}
+
+inline Floats sample(const SampleGrid& grid, const Floats& x, const Floats& y) {
+  return interpolate(grid, grid.a11 * x + grid.a12 * y + grid.u,
+                     grid.a21 * x + grid.a22 * y + grid.v);
+}
+
+/// Adds the partial sums in the one order that all levels share.
+inline float total(const float* partial) {
+  float eight[8], four[4];
+  for (int i = 0; i < 8; ++i) eight[i] = partial[i] + partial[i + 8];
+  for (int i = 0; i < 4; ++i) four[i] = eight[i] + eight[i + 4];
+  return (four[0] + four[2]) + (four[1] + four[3]);
+}
+
+}  // namespace
+}  // namespace oneac::internal

@@ -1,0 +1,45 @@
+#include "static_points.h"
+
+namespace oneac::internal {
+namespace {
+
+constexpr double kRest = 0.3;         // [px] a few σ of a tracked point
+constexpr double kMustMove = 2.5;     // [px] ten times kRest, so that no error of the hint does it
+constexpr std::size_t kBlocked = 50;  // [frames] then the cell gets another chance
+// Without a metric hint far points near the direction of travel rest as well: let only long rest
+// count, while the image as a whole moves.
+constexpr int kUncertainFactor = 4;
+
+}  // namespace
+
+bool StaticPoints::rests(KltTrack& track, const Eigen::Vector2d& flow,
+                         const MotionPrediction& expected) const {
+  const bool at_rest = flow.norm() < kRest;
+  auto warp = expected.on_road(track.u);
+  if (!warp) warp = expected.far_away(track.u);
+  const bool must_move = warp && (warp->centre - track.u).norm() > kMustMove;
+  const bool others_move = !expected.is_metric() && median_flow_px_ > kMustMove;
+  if (!at_rest) {
+    track.at_rest = 0;
+  } else if (must_move) {
+    track.at_rest += kUncertainFactor;
+  } else if (others_move) {
+    ++track.at_rest;
+  }
+  return at_rest && must_move;
+}
+
+bool StaticPoints::is_static(const KltTrack& track) const {
+  return track.at_rest >= kUncertainFactor * frames_;
+}
+
+void StaticPoints::block(std::size_t cell) {
+  blocked_until_[cell] = frame_ + kBlocked;
+}
+
+bool StaticPoints::is_blocked(std::size_t cell) const {
+  const auto found = blocked_until_.find(cell);
+  return found != blocked_until_.end() && frame_ < found->second;
+}
+
+}  // namespace oneac::internal

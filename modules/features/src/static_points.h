@@ -1,0 +1,42 @@
+#pragma once
+
+#include "klt_track.h"
+#include "motion_prediction.h"
+
+#include <Eigen/Core>
+
+#include <cstddef>
+#include <unordered_map>
+
+namespace oneac::internal {
+
+/// Recognises what moves with the camera (bonnet, reflections in the windscreen): points that stay
+/// where they are although the expected motion moves whatever is seen there. A point below the
+/// horizon cannot lie beyond the road, one above it cannot lie beyond infinity.
+class StaticPoints {
+ public:
+  explicit StaticPoints(int frames) : frames_(frames) {}
+
+  /// Begins a pair. @param median_flow_px  of all points found
+  void begin_pair(std::size_t frame, double median_flow_px) {
+    frame_ = frame;
+    median_flow_px_ = median_flow_px;
+  }
+  /// Whether the track rested while it had to move in this pair; counts it in the track.
+  [[nodiscard]] bool rests(KltTrack& track, const Eigen::Vector2d& flow,
+                           const MotionPrediction& expected) const;
+  /// Whether the track has rested so long that it is no part of the scene.
+  [[nodiscard]] bool is_static(const KltTrack& track) const;
+  /// Keeps corners of this cell from being taken for a while.
+  void block(std::size_t cell);
+  [[nodiscard]] bool is_blocked(std::size_t cell) const;
+  void clear() { blocked_until_.clear(); }
+
+ private:
+  int frames_;
+  std::size_t frame_ = 0;
+  double median_flow_px_ = 0.0;
+  std::unordered_map<std::size_t, std::size_t> blocked_until_;
+};
+
+}  // namespace oneac::internal

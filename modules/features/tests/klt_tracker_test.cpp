@@ -1,0 +1,272 @@
+#include "texture.h"
+
+#include "oneac/base/error.h"
+#include "oneac/features/ac_tracker.h"
+#include "oneac/features/draw_tracks.h"
+#include "oneac/features/feature_options.h"
+#include "oneac/test_support/temporary_folder.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <filesystem>
+#include <future>
+#include <map>
+#include <set>
+#include <stdexcept>
+#include <vector>
+
+namespace oneac {
+namespace {
+
+FeatureOptions klt() {
+  FeatureOptions options;
+  options.extractor = "klt";
+  return options;
+}
+
+View shifted(double x, double y) {
+  View view;
+  view.shift = {x, y};
+  view.noise = 1.0;
+  view.seed = static_cast<std::uint64_t>(1000.0 + 10.0 * x);
+  return view;
+}
+
+/// A drive past a wall: 4 px to the left and 1 % closer each frame.
+View drive(int frame) {
+  View view = shifted(-4.0 * frame, 0.0);
+  view.A *= std::pow(1.01, frame);
+  return view;
+}
+
+/// The next image of a sequence.
+TrackedPair feed(AcTracker& tracker, const GreyImage& image, const MotionHint& hint = {}) {
+  return tracker.advance(tracker.prepare(image.view()), hint);
+}
+
+bool same_bytes(const TrackedPair& a, const TrackedPair& b) {
+  if (a.tracks != b.tracks || a.affine_sigma != b.affine_sigma || a.point_sigma != b.point_sigma ||
+      a.acs.size() != b.acs.size()) {
+    return false;
+  }
+  for (std::size_t i = 0; i < a.acs.size(); ++i) {
+    if (a.acs[i].x1 != b.acs[i].x1 || a.acs[i].x2 != b.acs[i].x2 || a.acs[i].A != b.acs[i].A) {
+      return false;
+    }
+  }
+  return true;
+}
+
+TEST(KltTracker, GivesNothingForTheFirstFrame) {
+  const auto tracker = make_tracker(klt());
+  const TrackedPair pair = feed(*tracker, render(Texture(1), shifted(0, 0)));
+  EXPECT_TRUE(pair.acs.empty());
+  EXPECT_FALSE(pair.standing);
+}
+
+TEST(KltTracker, SpreadsCorrespondencesOverTheImage) {
+  const auto tracker = make_tracker(klt());
+  feed(*tracker, render(Texture(2), shifted(0, 0)));
+  const TrackedPair pair = feed(*tracker, render(Texture(2), shifted(3, 1)));
+  std::map<int, int> per_block;  // 4 × 3 blocks
+  for (const auto& ac : pair.acs) {
+    ++per_block[static_cast<int>(ac.x1.y() / 120.0) * 4 + static_cast<int>(ac.x1.x() / 120.0)];
+  }
+  EXPECT_GT(pair.acs.size(), 300U);
+  EXPECT_EQ(per_block.size(), 12U);
+  for (const auto& [block, count] : per_block) EXPECT_GT(count, 12) << block;
+}
+
+TEST(KltTracker, FollowsTracksAndComposesTheirAffinities) {
+  const Texture texture(3);
+  const auto tracker = make_tracker(klt());
+  TrackedPair pair;
+  for (int frame = 0; frame <= 8; ++frame) pair = feed(*tracker, render(texture, drive(frame)));
+  const View last = drive(8);
+  std::vector<double> affine, point;
+  for (const std::uint64_t track : pair.tracks) {
+    const auto ac = tracker->between(track, 0, 8);
+    if (!ac) continue;
+    affine.push_back((ac->A - last.A).norm());
+    point.push_back((ac->x2 - last.map(ac->x1)).norm());
+    const auto back = tracker->between(track, 8, 0);
+    ASSERT_TRUE(back);
+    EXPECT_LT((back->A * ac->A - Eigen::Matrix2d::Identity()).norm(), 1e-9);
+  }
+  ASSERT_GT(affine.size(), 150U);
+  EXPECT_LT(median_of(affine), 0.03);
+  EXPECT_LT(median_of(point), 0.3);
+  EXPECT_FALSE(tracker->between(pair.tracks.front(), 0, 9));
+}
+
+TEST(KltTracker, NeverUsesATrackNumberTwice) {
+  const Texture texture(4);
+  const auto tracker = make_tracker(klt());
+  std::map<std::uint64_t, Eigen::Vector2d> places;
+  for (int frame = 0; frame <= 6; ++frame) {
+    const TrackedPair pair = feed(*tracker, render(texture, drive(frame)));
+    std::map<std::uint64_t, Eigen::Vector2d> now;
+    for (std::size_t i = 0; i < pair.tracks.size(); ++i) {
+      EXPECT_TRUE(now.emplace(pair.tracks[i], pair.acs[i].x2).second);
+      const auto before = places.find(pair.tracks[i]);
+      if (before != places.end()) {
+        EXPECT_TRUE(before->second == pair.acs[i].x1);
+      }
+    }
+    places = now;
+  }
+}
+
+TEST(KltTracker, GivesTheSameBytesWhateverThreadPrepares) {
+  const Texture texture(5);
+  const auto here = make_tracker(klt()), there = make_tracker(klt());
+  for (int frame = 0; frame <= 3; ++frame) {
+    const GreyImage image = render(texture, drive(frame));
+    auto prepared = std::async(std::launch::async, [&] { return there->prepare(image.view()); });
+    const TrackedPair one = feed(*here, image);
+    EXPECT_TRUE(same_bytes(one, there->advance(prepared.get(), {}))) << frame;
+  }
+}
+
+TEST(KltTracker, ReportsStandingAndKeepsTheTracks) {
+  const Texture texture(6);
+  const auto tracker = make_tracker(klt());
+  feed(*tracker, render(texture, drive(0)));
+  const TrackedPair moving = feed(*tracker, render(texture, drive(1)));
+  EXPECT_FALSE(moving.standing);
+  View same = drive(1);
+  for (int i = 0; i < 4; ++i) {
+    same.seed = 500 + static_cast<std::uint64_t>(i);
+    const TrackedPair pair = feed(*tracker, render(texture, same));
+    ASSERT_TRUE(pair.standing) << i;
+    for (const auto& ac : pair.acs) EXPECT_TRUE(ac.x1 == ac.x2);
+  }
+  const TrackedPair again = feed(*tracker, render(texture, drive(2)));
+  EXPECT_FALSE(again.standing);
+  const std::set<std::uint64_t> before(moving.tracks.begin(), moving.tracks.end());
+  std::size_t kept = 0;
+  for (const std::uint64_t track : again.tracks) kept += before.count(track);
+  EXPECT_GT(kept, moving.tracks.size() * 8 / 10);
+}
+
+TEST(KltTracker, LetsCreepingAddUpInsteadOfLosingIt) {
+  const Texture texture(7);
+  const auto tracker = make_tracker(klt());
+  feed(*tracker, render(texture, shifted(0, 0)));
+  double sum = 0.0;
+  bool stood = false;
+  for (int frame = 1; frame <= 20; ++frame) {
+    const TrackedPair pair = feed(*tracker, render(texture, shifted(0.06 * frame, 0.0)));
+    stood = stood || pair.standing;
+    std::vector<double> flow;
+    for (const auto& ac : pair.acs) flow.push_back(ac.x2.x() - ac.x1.x());
+    ASSERT_FALSE(flow.empty());
+    sum += median_of(flow);
+  }
+  EXPECT_TRUE(stood);
+  EXPECT_NEAR(sum, 20 * 0.06, 0.2);
+}
+
+/// Yaw that moves the image's centre by 5 px.
+MotionHint turning() {
+  MotionHint hint;
+  hint.camera.fx = hint.camera.fy = 500.0;
+  hint.camera.cx = 240.0;
+  hint.camera.cy = 180.0;
+  hint.T_2_1 = RelativePose{yaw_rotation(std::cos(0.01), std::sin(0.01)), Eigen::Vector3d::Zero()};
+  return hint;
+}
+
+TEST(KltTracker, DropsWhatMovesWithTheCamera) {
+  constexpr int kBonnet = 260;  // rows below are the bonnet
+  const Texture world(8), bonnet(9);
+  const GreyImage car = render(bonnet, shifted(0, 0));
+  const auto tracker = make_tracker(klt());
+  std::size_t on_bonnet = 0, in_world = 0;
+  for (int frame = 0; frame < 12; ++frame) {
+    GreyImage image = render(world, shifted(-5.0 * frame, 0.0));
+    for (int v = kBonnet; v < image.height(); ++v) {
+      std::copy(car.row(v), car.row(v) + image.width(), image.row(v));
+    }
+    const TrackedPair pair = feed(*tracker, image, turning());
+    for (const auto& ac : pair.acs) {
+      if (ac.x2.y() > kBonnet + 20) ++on_bonnet;
+      if (ac.x2.y() < kBonnet - 20) ++in_world;
+    }
+  }
+  EXPECT_EQ(on_bonnet, 0U);
+  EXPECT_GT(in_world, 1000U);
+}
+
+TEST(KltTracker, PredictsTheRoadFromTheMotion) {
+  // Road 1 camera height below: 60 px nearer than the horizon it moves farther than windows reach.
+  MotionHint hint = turning();
+  hint.T_2_1 = RelativePose{Eigen::Matrix3d::Identity(), {0.0, 0.0, -0.8}};
+  hint.scaled = true;
+  const Texture texture(10);
+  const auto paint = [&](double driven) {
+    GreyImage image(480, 360, 120);
+    for (int v = 200; v < 360; ++v) {
+      for (int u = 0; u < 480; ++u) {
+        const double depth = 500.0 / (v - 180.0);
+        const double grey = texture(160.0 * (u - 240.0) / 500.0 * depth, 160.0 * (depth + driven));
+        image.row(v)[u] = static_cast<std::uint8_t>(std::clamp(std::lround(grey), 0L, 255L));
+      }
+    }
+    return image;
+  };
+  const auto count = [&](const MotionHint& given) {
+    const auto tracker = make_tracker(klt());
+    feed(*tracker, paint(0.0), given);
+    std::size_t right = 0;
+    for (const auto& ac : feed(*tracker, paint(0.8), given).acs) {
+      const double depth = 500.0 / (ac.x1.y() - 180.0);
+      const double scale = depth / (depth - 0.8);
+      const Eigen::Vector2d centre(240.0, 180.0);
+      right += ((ac.x1 - centre) * scale + centre - ac.x2).norm() < 1.0 ? 1 : 0;
+    }
+    return right;
+  };
+  EXPECT_GT(count(hint), 60U);
+  EXPECT_GT(count(hint), count({}));
+}
+
+TEST(KltTracker, StartsAnewAfterReset) {
+  const auto tracker = make_tracker(klt());
+  feed(*tracker, render(Texture(11), shifted(0, 0)));
+  const TrackedPair pair = feed(*tracker, render(Texture(11), shifted(4, 0)));
+  tracker->reset();
+  EXPECT_TRUE(feed(*tracker, render(Texture(11), shifted(8, 0))).acs.empty());
+  EXPECT_FALSE(tracker->between(pair.tracks.front(), 0, 1));
+}
+
+TEST(KltTracker, HasNothingToSayAboutABlankImage) {
+  const auto tracker = make_tracker(klt());
+  for (int i = 0; i < 3; ++i) {
+    const TrackedPair pair = feed(*tracker, GreyImage(200, 100, 90));
+    EXPECT_TRUE(pair.acs.empty());
+    EXPECT_FALSE(pair.standing);
+  }
+  EXPECT_NO_THROW(static_cast<void>(tracker->prepare(GreyImage(3, 2, 9).view())));
+}
+
+TEST(KltTracker, RefusesImagesOfAnotherSize) {
+  const auto tracker = make_tracker(klt());
+  feed(*tracker, GreyImage(200, 100, 90));
+  EXPECT_THROW(feed(*tracker, GreyImage(100, 100, 90)), std::invalid_argument);
+}
+
+TEST(DrawTracks, WritesAPicture) {
+  const TemporaryFolder folder;
+  const GreyImage image = render(Texture(12), shifted(0, 0));
+  TrackedPair pair;
+  pair.acs.push_back({{100, 100}, {110, 104}, Eigen::Matrix2d::Identity()});
+  pair.tracks.push_back(0);
+  draw_tracks(image.view(), pair, folder.path() / "tracks.png");
+  EXPECT_GT(std::filesystem::file_size(folder.path() / "tracks.png"), 1000U);
+  EXPECT_THROW(draw_tracks(image.view(), pair, folder.path() / "none" / "tracks.png"), OutputError);
+}
+
+}  // namespace
+}  // namespace oneac

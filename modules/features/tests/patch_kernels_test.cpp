@@ -1,0 +1,129 @@
+#include "patch_kernels.h"
+
+#include "patch_window.h"
+#include "texture.h"
+
+#include <gtest/gtest.h>
+
+#include <cstring>
+#include <vector>
+
+namespace oneac::internal {
+namespace {
+
+/// Everything the kernels of one level make of a random patch pair.
+struct Outcome {
+  std::vector<float> numbers;
+
+  explicit Outcome(PatchLevel level) {
+    const PatchKernels& kernels = patch_kernels(level);
+    View second;
+    second.A << 1.05, 0.02, -0.03, 0.98;
+    const auto one = build_pyramid(render(Texture(21), View{}).view(), 2);
+    const auto two = build_pyramid(render(Texture(21), second).view(), 2);
+    for (const double radius : {6.0, 7.0, 8.0, 11.0, 14.0}) {
+      const PatchWindow window = round_window(radius);
+      PatchWarp here, there;
+      here.centre = {201.3, 155.8};
+      there.centre = second.map(here.centre);
+      there.M = second.A;
+      PatchTemplate patch{};
+      kernels.make_template(*place(one, 0, here, radius + 1.0, 0.0), window, patch);
+      keep(patch.value, window.size);
+      keep(patch.gx, window.size);
+      keep(patch.gy, window.size);
+      AlignmentSums sums;
+      alignas(64) float residual[kMaxSamples], weight[kMaxSamples];
+      kernels.residuals(*place(two, 0, there, radius, 0.0), window, patch, window.weight,
+                        patch.contrast, patch.mean, residual, sums);
+      keep(residual, window.size);
+      keep(sums.gradient, kAffineParameters);
+      keep(&sums.squares, 1);
+      keep(&sums.absolute, 1);
+      kernels.tukey(window, residual, 4.0F, weight);
+      keep(weight, window.size);
+      float upper[36];
+      kernels.affine_normal(window, patch, weight, upper);
+      keep(upper, 36);
+      kernels.translation_normal(window, patch, weight, upper);
+      keep(upper, 10);
+    }
+  }
+
+  void keep(const float* from, std::size_t count) {
+    numbers.insert(numbers.end(), from, from + count);
+  }
+};
+
+TEST(PatchKernels, GiveTheSameBytesAtEveryLevel) {
+  const Outcome baseline(PatchLevel::kBaseline);
+  for (const PatchLevel level : {PatchLevel::kAvx2, PatchLevel::kAvx512}) {
+    if (!has_patch_level(level)) {
+      std::printf("level %d is not on this processor\n", static_cast<int>(level));
+      continue;
+    }
+    const Outcome other(level);
+    ASSERT_EQ(other.numbers.size(), baseline.numbers.size());
+    EXPECT_EQ(std::memcmp(other.numbers.data(), baseline.numbers.data(),
+                          baseline.numbers.size() * sizeof(float)),
+              0)
+        << static_cast<int>(level);
+  }
+}
+
+TEST(PatchKernels, NormaliseTheTemplate) {
+  const auto pyramid = build_pyramid(render(Texture(22), View{}).view(), 2);
+  const PatchWindow window = round_window(11.0);
+  PatchWarp here;
+  here.centre = {150.25, 140.5};
+  PatchTemplate patch{};
+  patch_kernels().make_template(*place(pyramid, 0, here, 12.0, 0.0), window, patch);
+  double sum = 0.0, squares = 0.0, weights = 0.0;
+  for (std::size_t i = 0; i < window.size; ++i) {
+    const auto w = static_cast<double>(window.weight[i]), t = static_cast<double>(patch.value[i]);
+    sum += w * t;
+    squares += w * t * t;
+    weights += w;
+  }
+  EXPECT_NEAR(sum / weights, 0.0, 1e-5);
+  EXPECT_NEAR(squares / weights, 1.0, 1e-4);
+}
+
+TEST(PatchWindow, HasTheSamplesOfADisc) {
+  const PatchWindow window = round_window(8.0);
+  EXPECT_EQ(window.rows, 17U);
+  EXPECT_EQ(window.size % kPatchLanes, 0U);
+  std::size_t used = 0;
+  for (std::size_t i = 0; i < window.size; ++i) {
+    if (!(window.weight[i] > 0.0F)) continue;
+    ++used;
+    EXPECT_LE(window.x[i] * window.x[i] + window.y[i] * window.y[i], 64.0F);
+  }
+  EXPECT_EQ(used, 197U);  // lattice points in a circle of radius 8
+}
+
+TEST(ImagePyramid, KeepsPlacesFromLevelToLevel) {
+  GreyImage image(160, 120, 20);
+  for (int v = 60; v < 70; ++v) {
+    for (int u = 40; u < 50; ++u) image.row(v)[u] = 220;
+  }
+  const ImagePyramid pyramid = build_pyramid(image.view(), 4);
+  ASSERT_EQ(pyramid.levels.size(), 3U);  // the fourth would be smaller than a window
+  for (const PyramidLevel& level : pyramid.levels) {
+    const double scale = 160.0 / level.width;
+    double mass = 0.0, u_sum = 0.0, v_sum = 0.0;
+    for (int v = 0; v < level.height; ++v) {
+      for (int u = 0; u < level.width; ++u) {
+        const double grey = level.row(v)[u] / 16.0 - 20.0;
+        mass += grey;
+        u_sum += grey * u;
+        v_sum += grey * v;
+      }
+    }
+    EXPECT_NEAR(scale * u_sum / mass, 44.5, 0.1);
+    EXPECT_NEAR(scale * v_sum / mass, 64.5, 0.1);
+  }
+}
+
+}  // namespace
+}  // namespace oneac::internal
