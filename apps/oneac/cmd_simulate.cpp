@@ -140,6 +140,13 @@ void add_drive_options(CLI::App& verb, SimulationOptions& options) {
       ->capture_default_str();
   verb.add_option("--suspension-roll", options.suspension_roll_deg, "Std. deviation [deg]")
       ->capture_default_str();
+  verb.add_option("--slope", options.slope_percent, "Of the whole town, along the first street [%]")
+      ->capture_default_str();
+  verb.add_flag("--crossing-traffic", options.crossing_traffic,
+                "A vehicle crosses every street before the camera");
+  verb.add_option("--dark-from", options.dark_from_s, "Nearly black images from here on [s] ...")
+      ->capture_default_str();
+  verb.add_option("--dark", options.dark_s, "... for so long [s]; 0: never")->capture_default_str();
   verb.add_option("--gps-noise", options.gps_noise_m, "Std. deviation per axis [m]")
       ->capture_default_str();
 }

@@ -34,6 +34,7 @@ Face side(const Box& box, int index, int axis, bool upper) {
   face.low << box.low[face.first()], box.low[face.second()];
   face.high << box.high[face.first()], box.high[face.second()];
   face.box = index;
+  face.upper = upper;
   return face;
 }
 

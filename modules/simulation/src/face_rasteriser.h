@@ -31,7 +31,8 @@ struct Face {
   double offset = 0.0;
   Eigen::Vector2d low;
   Eigen::Vector2d high;
-  int box = -1;  ///< index of the box that it belongs to; -1: the ground
+  int box = -1;        ///< index of the box that it belongs to; -1: the ground
+  bool upper = false;  ///< of the box's two sides across the axis
 
   [[nodiscard]] int first() const { return (axis + 1) % 3; }
   [[nodiscard]] int second() const { return (axis + 2) % 3; }

@@ -54,26 +54,25 @@ Eigen::Matrix2f leg_from_world(const Leg& leg) {
 }  // namespace
 
 Shader::Shader(const Route& route, const std::vector<Box>& boxes, std::uint64_t seed)
-    : legs_(route.legs()),
-      boxes_(boxes),
-      asphalt_(paint_asphalt(seed)),
-      tone_(paint_road_tone(seed)) {
+    : legs_(route.legs()), asphalt_(paint_asphalt(seed)), tone_(paint_road_tone(seed)) {
   const auto own_seed = [seed](std::size_t kind, std::size_t i) {
     return mix_bits(seed ^ (kind << 32U)) + i;
   };
   for (std::size_t i = 0; i < legs_.size(); ++i) {
     decals_.push_back(paint_decal(legs_[i], own_seed(1, i)));
   }
-  for (std::size_t i = 0; i < boxes_.size(); ++i) {
-    const bool building = boxes_[i].kind == Box::Kind::kBuilding;
-    box_textures_.push_back(building ? paint_facade(boxes_[i], own_seed(2, i))
-                                     : paint_obstacle(boxes_[i], own_seed(3, i)));
+  for (std::size_t i = 0; i < boxes.size(); ++i) {
+    const bool building = boxes[i].kind == Box::Kind::kBuilding;
+    box_textures_.push_back(building ? paint_facade(boxes[i], own_seed(2, i))
+                                     : paint_obstacle(boxes[i], own_seed(3, i)));
   }
 }
 
-float Shader::face(const RayFan& fan, const Face& face, double u, double v) const {
+float Shader::face(const RayFan& fan, const Face& face, const std::vector<Box>& boxes, double u,
+                   double v) const {
   const Footprint patch = footprint(fan, face, u, v);
-  return face.box < 0 ? ground(patch) : wall(face, patch);
+  if (face.box < 0) return ground(patch);
+  return wall(face, boxes[static_cast<std::size_t>(face.box)], patch);
 }
 
 float Shader::ground(const Footprint& patch) const {
@@ -92,11 +91,9 @@ float Shader::ground(const Footprint& patch) const {
   return grey;
 }
 
-float Shader::wall(const Face& face, const Footprint& patch) const {
-  const auto index = static_cast<std::size_t>(face.box);
-  const Box& box = boxes_[index];
-  const Texture& texture = box_textures_[index];
-  const float light = illumination(face, face.offset == box.high[face.axis]);
+float Shader::wall(const Face& face, const Box& box, const Footprint& patch) const {
+  const Texture& texture = box_textures_[static_cast<std::size_t>(face.box)];
+  const float light = illumination(face, face.upper);
   Footprint local = patch;
   if (face.axis == 2) {
     local.centre -= box.low.head<2>().cast<float>();

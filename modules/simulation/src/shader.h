@@ -16,16 +16,17 @@ class Shader {
   Shader(const Route& route, const std::vector<Box>& boxes, std::uint64_t seed);
 
   /// Grey level of a face at a pixel, averaged over the pixel. @pre the face is in front there
-  [[nodiscard]] float face(const RayFan& fan, const Face& face, double u, double v) const;
+  /// @param boxes  as they stand now: the ones given, moved
+  [[nodiscard]] float face(const RayFan& fan, const Face& face, const std::vector<Box>& boxes,
+                           double u, double v) const;
   [[nodiscard]] static float sky(const Eigen::Vector3d& ray);
 
  private:
   [[nodiscard]] float ground(const Footprint& patch) const;
-  [[nodiscard]] float wall(const Face& face, const Footprint& patch) const;
+  [[nodiscard]] float wall(const Face& face, const Box& box, const Footprint& patch) const;
 
   std::vector<Leg> legs_;
   std::vector<RoadDecal> decals_;
-  std::vector<Box> boxes_;
   std::vector<Texture> box_textures_;
   Texture asphalt_;
   Texture tone_;

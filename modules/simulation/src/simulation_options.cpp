@@ -35,6 +35,9 @@ void SimulationOptions::validate() const {
   require_within("stop_s", stop_s, 0.0, 600.0);
   require_within("suspension_pitch_deg", suspension_pitch_deg, 0.0, 5.0);
   require_within("suspension_roll_deg", suspension_roll_deg, 0.0, 5.0);
+  require_within("slope_percent", slope_percent, -30.0, 30.0);
+  require_within("dark_from_s", dark_from_s, 0.0, 1e6);
+  require_within("dark_s", dark_s, 0.0, 1e6);
   require_within("gps_noise_m", gps_noise_m, 0.0, 100.0);
 }
 

@@ -5,15 +5,16 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <utility>
 
 namespace oneac::simulation {
 namespace {
 
 class PixelPainter {
  public:
-  PixelPainter(const Shader& shader, const RayFan& fan, const std::vector<Face>& faces,
-               const FaceRasteriser& visible)
-      : shader_(shader), fan_(fan), faces_(faces), visible_(visible) {}
+  PixelPainter(const Shader& shader, const RayFan& fan, const std::vector<Box>& boxes,
+               const std::vector<Face>& faces, const FaceRasteriser& visible)
+      : shader_(shader), fan_(fan), boxes_(boxes), faces_(faces), visible_(visible) {}
 
   [[nodiscard]] float pixel(int u, int v) const {
     const std::array<std::uint16_t, 4> ids{id(u, v, 0), id(u, v, 1), id(u, v, 2), id(u, v, 3)};
@@ -32,14 +33,21 @@ class PixelPainter {
   }
   [[nodiscard]] float look(std::uint16_t id, double u, double v) const {
     if (id == FaceRasteriser::kSky) return Shader::sky(fan_.ray(u, v));
-    return shader_.face(fan_, faces_[id], u, v);
+    return shader_.face(fan_, faces_[id], boxes_, u, v);
   }
 
   const Shader& shader_;
   const RayFan& fan_;
+  const std::vector<Box>& boxes_;
   const std::vector<Face>& faces_;
   const FaceRasteriser& visible_;
 };
+
+/// The town's boxes, then the traffic's where they start.
+std::vector<Box> with_traffic(std::vector<Box> boxes, const std::vector<CrossingVehicle>& traffic) {
+  for (const CrossingVehicle& vehicle : traffic) boxes.push_back(vehicle.at_start);
+  return boxes;
+}
 
 static_assert(FaceRasteriser::kPerSide == 2, "PixelPainter reads 2×2 samples per pixel");
 
@@ -50,14 +58,27 @@ bool contains(const Face& face, const Eigen::Vector3d& X) {
 
 }  // namespace
 
-StreetRenderer::StreetRenderer(const PinholeCamera& camera, const Route& route, std::uint64_t seed)
-    : camera_(camera), boxes_(lay_out_street(route, seed)), shader_(route, boxes_, seed) {}
+StreetRenderer::StreetRenderer(const PinholeCamera& camera, const Route& route, std::uint64_t seed,
+                               std::vector<CrossingVehicle> traffic)
+    : camera_(camera),
+      traffic_(std::move(traffic)),
+      boxes_(with_traffic(lay_out_street(route, seed), traffic_)),
+      shader_(route, boxes_, seed) {}
 
-std::vector<float> StreetRenderer::render(const Eigen::Isometry3d& T_world_cam) const {
+std::vector<Box> StreetRenderer::boxes_at(double time_s) const {
+  std::vector<Box> boxes = boxes_;
+  const std::size_t first = boxes.size() - traffic_.size();
+  for (std::size_t i = 0; i < traffic_.size(); ++i) boxes[first + i] = traffic_[i].at(time_s);
+  return boxes;
+}
+
+std::vector<float> StreetRenderer::render(const Eigen::Isometry3d& T_world_cam,
+                                          double time_s) const {
   const RayFan fan(camera_, T_world_cam);
-  const std::vector<Face> faces = faces_towards(boxes_, fan.centre);
+  const std::vector<Box> boxes = boxes_at(time_s);
+  const std::vector<Face> faces = faces_towards(boxes, fan.centre);
   const FaceRasteriser visible(fan, faces, camera_.width, camera_.height);
-  const PixelPainter painter(shader_, fan, faces, visible);
+  const PixelPainter painter(shader_, fan, boxes, faces, visible);
   std::vector<float> grey;
   grey.reserve(static_cast<std::size_t>(camera_.width) * static_cast<std::size_t>(camera_.height));
   for (int v = 0; v < camera_.height; ++v) {
@@ -67,12 +88,13 @@ std::vector<float> StreetRenderer::render(const Eigen::Isometry3d& T_world_cam) 
 }
 
 std::optional<Eigen::Vector3d> StreetRenderer::surface_point(const Eigen::Isometry3d& T_world_cam,
-                                                             const Eigen::Vector2d& u_px) const {
+                                                             const Eigen::Vector2d& u_px,
+                                                             double time_s) const {
   const RayFan fan(camera_, T_world_cam);
   const Eigen::Vector3d ray = fan.ray(u_px.x(), u_px.y());
   double nearest = 1.0 / kFarthest_m;
   std::optional<Eigen::Vector3d> hit;
-  for (const Face& face : faces_towards(boxes_, fan.centre)) {
+  for (const Face& face : faces_towards(boxes_at(time_s), fan.centre)) {
     const double w = face.inverse_depth(fan, ray);
     if (!(w > nearest)) continue;
     const Eigen::Vector3d X = fan.centre + ray / w;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "crossing_traffic.h"
 #include "shader.h"
 
 #include "oneac/base/image.h"
@@ -17,16 +18,22 @@ namespace oneac::simulation {
 /// pixel shows.
 class StreetRenderer {
  public:
-  StreetRenderer(const PinholeCamera& camera, const Route& route, std::uint64_t seed);
+  StreetRenderer(const PinholeCamera& camera, const Route& route, std::uint64_t seed,
+                 std::vector<CrossingVehicle> traffic);
 
-  /// Grey levels, row by row.
-  [[nodiscard]] std::vector<float> render(const Eigen::Isometry3d& T_world_cam) const;
+  /// Grey levels at a time of the drive [s], row by row.
+  [[nodiscard]] std::vector<float> render(const Eigen::Isometry3d& T_world_cam,
+                                          double time_s) const;
   [[nodiscard]] std::optional<Eigen::Vector3d> surface_point(const Eigen::Isometry3d& T_world_cam,
-                                                             const Eigen::Vector2d& u_px) const;
+                                                             const Eigen::Vector2d& u_px,
+                                                             double time_s) const;
 
  private:
+  [[nodiscard]] std::vector<Box> boxes_at(double time_s) const;
+
   PinholeCamera camera_;
-  std::vector<Box> boxes_;
+  std::vector<CrossingVehicle> traffic_;
+  std::vector<Box> boxes_;  ///< what stands, then the traffic where it starts
   Shader shader_;
 };
 

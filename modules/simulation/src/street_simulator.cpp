@@ -30,6 +30,7 @@ constexpr double kImuRate = 100.0;            // [Hz] Málaga's unit
 constexpr double kGpsSpeedNoise = 0.05;       // [m/s] Doppler
 constexpr double kGpsCourseNoise = 0.3;       // [deg]
 constexpr double kAccelerometerNoise = 0.05;  // [m/s²]
+constexpr float kDarkness = 0.02F;            // of the daylight: an unlit tunnel
 constexpr double kGyroNoise = 0.002;          // [rad/s]
 
 double duration(const SimulationOptions& options) {
@@ -66,6 +67,19 @@ Eigen::Vector3d three_normals(RandomNumbers& random) {
   return {x, y, random.normal()};
 }
 
+Eigen::Isometry3d slope_of(const SimulationOptions& options) {
+  Eigen::Isometry3d T = Eigen::Isometry3d::Identity();
+  const double angle = std::atan(options.slope_percent / 100.0);
+  T.linear() = Eigen::AngleAxisd(-angle, Eigen::Vector3d::UnitY()).toRotationMatrix();
+  return T;
+}
+
+std::vector<simulation::CrossingVehicle> traffic_of(const SimulationOptions& options,
+                                                    const Route& route) {
+  if (!options.crossing_traffic) return {};
+  return simulation::crossing_traffic(route, duration(options));
+}
+
 double course_deg(double heading) {
   const double course = std::fmod(90.0 - heading / kDegree, 360.0);
   return course < 0.0 ? course + 360.0 : course;
@@ -85,10 +99,11 @@ struct StreetSimulator::Impl {
         T_vehicle_cam(mount_of(options)),
         route(options, duration(options)),
         suspension(options, route, duration(options)),
-        renderer(camera, route, options.seed) {}
+        T_world_town(slope_of(options)),
+        renderer(camera, route, options.seed, traffic_of(options, route)) {}
 
   [[nodiscard]] SimulatedState state_at(double time_s) const;
-  [[nodiscard]] GreyImage image(std::size_t i, const Eigen::Isometry3d& T_world_cam,
+  [[nodiscard]] GreyImage image(const SimulatedFrame& frame, const Eigen::Isometry3d& T_world_cam,
                                 std::uint64_t side) const;
   [[nodiscard]] SimulatedGps gps_at(double time_s, RandomNumbers& random) const;
   [[nodiscard]] SimulatedImu imu_at(double time_s, RandomNumbers& random) const;
@@ -98,6 +113,8 @@ struct StreetSimulator::Impl {
   Eigen::Isometry3d T_vehicle_cam;
   Route route;
   Suspension suspension;
+  Eigen::Isometry3d
+      T_world_town;  ///< the town is built on the plane Z = 0 and then put on its slope
   StreetRenderer renderer;
 };
 
@@ -107,17 +124,24 @@ SimulatedState StreetSimulator::Impl::state_at(double time_s) const {
   state.time_s = time_s;
   state.T_world_vehicle.linear() = body_rotation(planar.heading, suspension.at(time_s));
   state.T_world_vehicle.translation() << planar.position, 0.0;
+  state.T_world_vehicle = T_world_town * state.T_world_vehicle;
   state.T_world_cam = state.T_world_vehicle * T_vehicle_cam;
   state.speed_mps = planar.speed;
   state.yaw_rate_radps = planar.curvature * planar.speed;
   return state;
 }
 
-GreyImage StreetSimulator::Impl::image(std::size_t i, const Eigen::Isometry3d& T_world_cam,
+GreyImage StreetSimulator::Impl::image(const SimulatedFrame& frame,
+                                       const Eigen::Isometry3d& T_world_cam,
                                        std::uint64_t side) const {
-  const std::uint64_t key = mix_bits(options.seed) + 2 * static_cast<std::uint64_t>(i) + side;
-  return simulation::expose(renderer.render(T_world_cam), camera.width, camera.height,
-                            options.image_noise, key);
+  const std::uint64_t key =
+      mix_bits(options.seed) + 2 * static_cast<std::uint64_t>(frame.index) + side;
+  const double time_s = frame.state.time_s;
+  std::vector<float> grey = renderer.render(T_world_town.inverse() * T_world_cam, time_s);
+  if (time_s >= options.dark_from_s && time_s < options.dark_from_s + options.dark_s) {
+    for (float& value : grey) value *= kDarkness;
+  }
+  return simulation::expose(grey, camera.width, camera.height, options.image_noise, key);
 }
 
 SimulatedGps StreetSimulator::Impl::gps_at(double time_s, RandomNumbers& random) const {
@@ -125,6 +149,7 @@ SimulatedGps StreetSimulator::Impl::gps_at(double time_s, RandomNumbers& random)
   SimulatedGps fix;
   fix.time_s = time_s;
   fix.position_m << planar.position, 0.0;
+  fix.position_m = T_world_town * fix.position_m;
   fix.position_m += options.gps_noise_m * three_normals(random);
   fix.speed_mps = std::abs(planar.speed + kGpsSpeedNoise * random.normal());
   fix.course_deg = course_deg(planar.heading + kGpsCourseNoise * kDegree * random.normal());
@@ -136,7 +161,10 @@ SimulatedImu StreetSimulator::Impl::imu_at(double time_s, RandomNumbers& random)
   const BodyAttitude body = suspension.at(time_s);
   const Eigen::Matrix3d R_level_body = body_rotation(0.0, body);
   const double cornering = planar.curvature * planar.speed * planar.speed;
-  const Eigen::Vector3d force(planar.acceleration, cornering, kGravity);
+  const Eigen::Vector3d up = T_world_town.linear().transpose() * Eigen::Vector3d::UnitZ();
+  const Eigen::Matrix3d R_town_heading = body_rotation(planar.heading, {});
+  const Eigen::Vector3d force = Eigen::Vector3d(planar.acceleration, cornering, 0.0) +
+                                kGravity * (R_town_heading.transpose() * up);
   const Eigen::Vector3d yaw(0.0, 0.0, planar.curvature * planar.speed);
   SimulatedImu reading;
   reading.time_s = time_s;
@@ -180,23 +208,27 @@ SimulatedFrame StreetSimulator::frame(std::size_t i) const {
   SimulatedFrame frame;
   frame.index = i;
   frame.state = state(i);
-  frame.left = impl_->image(i, frame.state.T_world_cam, 0);
+  frame.left = impl_->image(frame, frame.state.T_world_cam, 0);
   if (impl_->options.stereo) {
     const Eigen::Translation3d to_the_right(impl_->options.baseline_m, 0.0, 0.0);
-    frame.right = impl_->image(i, frame.state.T_world_cam * to_the_right, 1);
+    frame.right = impl_->image(frame, frame.state.T_world_cam * to_the_right, 1);
   }
   return frame;
 }
 
 GreyImage StreetSimulator::render(const Eigen::Isometry3d& T_world_cam) const {
   const PinholeCamera& camera = impl_->camera;
-  return simulation::expose(impl_->renderer.render(T_world_cam), camera.width, camera.height, 0.0,
-                            0);
+  return simulation::expose(
+      impl_->renderer.render(impl_->T_world_town.inverse() * T_world_cam, 0.0), camera.width,
+      camera.height, 0.0, 0);
 }
 
 std::optional<Eigen::Vector3d> StreetSimulator::surface_point(const Eigen::Isometry3d& T_world_cam,
                                                               const Eigen::Vector2d& u_px) const {
-  return impl_->renderer.surface_point(T_world_cam, u_px);
+  const auto X =
+      impl_->renderer.surface_point(impl_->T_world_town.inverse() * T_world_cam, u_px, 0.0);
+  if (!X) return std::nullopt;
+  return impl_->T_world_town * *X;
 }
 
 std::vector<SimulatedGps> StreetSimulator::gps() const {

@@ -29,6 +29,11 @@ struct SimulationOptions {
       0.2;                           ///< [deg] std. deviation at full speed, on top of braking dive
   double suspension_roll_deg = 0.1;  ///< [deg] std. deviation at full speed, on top of cornering
 
+  double slope_percent = 0.0;     ///< [%] of the whole town, rising along the first street
+  bool crossing_traffic = false;  ///< a vehicle crosses every street before the camera
+  double dark_from_s = 0.0;       ///< [s] from here on, for ...
+  double dark_s = 0.0;            ///< [s] ... so long the images are nearly black; 0: never
+
   double gps_noise_m = 0.3;  ///< [m] std. deviation per axis; a receiver with corrections
 
   /// @throws std::invalid_argument naming field, value and bound

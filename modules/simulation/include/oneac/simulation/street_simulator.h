@@ -13,9 +13,9 @@
 
 namespace oneac {
 
-/// The truth at one instant. World: X east, Y north, Z up, ground at Z = 0. Vehicle: X forward,
-/// Y left, Z up, origin on the ground. Camera: X right, Y down, Z forward; left one of a stereo
-/// pair.
+/// The truth at one instant. World: X east, Y north, Z up, ground at Z = 0 where nothing slopes.
+/// Vehicle: X forward, Y left, Z up, origin on the ground. Camera: X right, Y down, Z forward; left
+/// one of a stereo pair.
 struct SimulatedState {
   double time_s = 0.0;  ///< since the start of the drive [s]
   Eigen::Isometry3d T_world_vehicle = Eigen::Isometry3d::Identity();
@@ -72,7 +72,7 @@ class StreetSimulator {
   /// Renders frame i with its noise; some hundredths of a second.
   /// @throws std::out_of_range when i is not below size()
   [[nodiscard]] SimulatedFrame frame(std::size_t i) const;
-  /// What a camera at any pose would see, without noise.
+  /// What a camera at any pose would see at the start of the drive, without noise.
   [[nodiscard]] GreyImage render(const Eigen::Isometry3d& T_world_cam) const;
   /// The point of the world [m] behind a pixel; empty for the sky.
   [[nodiscard]] std::optional<Eigen::Vector3d> surface_point(const Eigen::Isometry3d& T_world_cam,
