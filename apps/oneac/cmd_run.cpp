@@ -53,7 +53,10 @@ void write_all(const DriveRecord& record, RunOptions& options, double wall_secon
                         summary_json(record, evaluation, options, wall_seconds));
   std::cout << summary_text(record, evaluation) << "written to " << options.output
             << ": trajectory_camera.kitti, trajectory_camera.tum, trajectory_vehicle.tum, "
-               "relative_poses.csv, timings.csv, summary.json, params.yaml\n";
+               "relative_poses.csv, timings.csv, summary.json, params.yaml"
+            << (record.keyframes.empty()
+                    ? "\n"
+                    : ", keyframes.tum, graph.g2o, map.simplemap, points.ply\n");
 }
 
 void run(RunFlags& flags) {

@@ -1,6 +1,25 @@
 #include "drive_record.h"
 
+#include <iterator>
+#include <utility>
+
 namespace oneac::app {
+
+void DriveRecord::take(Settled settled) {
+  for (const SettledFrame& frame : settled.frames) {
+    frames.at(frame.frame).T_first_cam = frame.T_first_cam;
+  }
+  std::move(settled.keyframes.begin(), settled.keyframes.end(), std::back_inserter(keyframes));
+}
+
+Trajectory DriveRecord::keyframe_trajectory() const {
+  Trajectory trajectory;
+  for (const Keyframe& keyframe : keyframes) {
+    trajectory.times.push_back(keyframe.time_s);
+    trajectory.poses.push_back(keyframe.T_first_cam);
+  }
+  return trajectory;
+}
 
 Trajectory DriveRecord::camera_trajectory() const {
   Trajectory trajectory;
@@ -11,17 +30,22 @@ Trajectory DriveRecord::camera_trajectory() const {
   return trajectory;
 }
 
-Trajectory DriveRecord::vehicle_trajectory() const {
+Eigen::Isometry3d DriveRecord::mount() const {
   // The log's heading of the camera with the pitch and roll that the drive confirmed.
   const Tilt log_tilt = tilt_from_mounting(T_vehicle_cam.linear());
   const Eigen::Matrix3d R_vehicle_level =
       T_vehicle_cam.linear() * leveling_rotation(log_tilt).transpose();
-  Eigen::Isometry3d mount = T_vehicle_cam;
-  mount.linear() = R_vehicle_level * leveling_rotation(tilt);
+  Eigen::Isometry3d T = T_vehicle_cam;
+  T.linear() = R_vehicle_level * leveling_rotation(tilt);
+  return T;
+}
+
+Trajectory DriveRecord::vehicle_trajectory() const {
+  const Eigen::Isometry3d T = mount();
   Trajectory trajectory;
   for (const FrameResult& frame : frames) {
     trajectory.times.push_back(frame.time_s);
-    trajectory.poses.push_back(mount * frame.T_first_cam * mount.inverse());
+    trajectory.poses.push_back(T * frame.T_first_cam * T.inverse());
   }
   return trajectory;
 }

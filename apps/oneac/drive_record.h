@@ -17,17 +17,26 @@ namespace oneac::app {
 /// What a run has computed so far: grows frame by frame and can be written at any time.
 struct DriveRecord {
   std::vector<FrameResult> frames;
-  std::vector<double> decode_ms;                                           ///< one per frame
+  std::vector<Keyframe> keyframes;  ///< settled ones, in order
+  std::vector<double> decode_ms;    ///< one per frame
   Eigen::Isometry3d T_vehicle_cam = CameraFrame::forward_looking_mount();  ///< as the log says
   PinholeCamera camera;
-  Tilt given_tilt;             ///< from the log or the parameters
-  Tilt tilt;                   ///< as believed at the end
-  double camera_height = 0.0;  ///< [m] in use; 0: none
+  Tilt given_tilt;                 ///< from the log or the parameters
+  TiltBelief tilt_belief;          ///< with its 1σ, at the end
+  double scale_uncertainty = 0.0;  ///< relative 1σ of the map's lengths at the end
+  Tilt tilt;                       ///< as believed at the end
+  double camera_height = 0.0;      ///< [m] in use; 0: none
   SourceReport source;
   std::size_t out_of_order = 0;  ///< images left out: not later than the one before
   bool interrupted = false;
   std::string failure;  ///< one line when an image stopped the run early, else ""
 
+  /// Takes over what has become final.
+  void take(Settled settled);
+  /// The camera on the vehicle: as the log says, with the pitch and roll of `tilt`.
+  [[nodiscard]] Eigen::Isometry3d mount() const;
+  /// Camera trajectory of the keyframes.
+  [[nodiscard]] Trajectory keyframe_trajectory() const;
   /// Camera trajectory, first camera = identity.
   [[nodiscard]] Trajectory camera_trajectory() const;
   /// Vehicle trajectory (X forward, Z up), first vehicle pose = identity; the mount is the log's

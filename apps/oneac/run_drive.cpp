@@ -6,8 +6,10 @@
 #include "oneac/base/error.h"
 #include "oneac/base/ordered_pipeline.h"
 
+#include <cstddef>
 #include <limits>
 #include <utility>
+#include <vector>
 
 namespace oneac::app {
 namespace {
@@ -17,6 +19,37 @@ struct Prepared {
   PreparedFrame frame;
   double decode_ms = 0.0;
 };
+
+/// What GPS and IMU say, read before the images when the front-end is to use it.
+VehicleReference read_ahead(const RunOptions& options) {
+  if (options.front_end.tilt.source != "imu" && options.front_end.scale.source != "gps") return {};
+  RawlogSource source(options.source.for_log(options.log));
+  source.finish();
+  return source.report().reference;
+}
+
+/// Hands the front-end the speeds up to the time of the next frame, in order.
+class SpeedFeeder {
+ public:
+  explicit SpeedFeeder(const std::vector<GpsFix>& fixes) : fixes_(fixes) {}
+  void feed_until(double time_s, FrontEnd& front_end) {
+    for (; next_ < fixes_.size() && fixes_[next_].time_s <= time_s; ++next_) {
+      const GpsFix& fix = fixes_[next_];
+      if (fix.speed) front_end.add_speed(fix.time_s, *fix.speed);
+    }
+  }
+
+ private:
+  const std::vector<GpsFix>& fixes_;
+  std::size_t next_ = 0;
+};
+
+CameraFrame without_image(const CameraFrame& frame) {
+  CameraFrame copy;
+  copy.T_vehicle_cam = frame.T_vehicle_cam;
+  copy.camera = frame.camera;
+  return copy;
+}
 
 void remember_first(const CameraFrame& frame, const FrontEnd& front_end, DriveRecord& record) {
   record.T_vehicle_cam = frame.T_vehicle_cam;
@@ -29,6 +62,11 @@ void remember_first(const CameraFrame& frame, const FrontEnd& front_end, DriveRe
 DriveRecord run_drive(const RunOptions& options) {
   RawlogSource source(options.source.for_log(options.log));
   FrontEnd front_end(options.front_end);
+  const VehicleReference sensors = read_ahead(options);
+  for (const ImuSample& sample : sensors.imu) {
+    if (sample.acceleration) front_end.add_acceleration(*sample.acceleration);
+  }
+  SpeedFeeder speeds(sensors.gps);
   DriveRecord record;
   {
     ProgressBar progress(options.run.progress && !options.run.quiet);
@@ -50,8 +88,13 @@ DriveRecord run_drive(const RunOptions& options) {
       return Prepared{front_end.prepare(std::move(frame)), decode_ms};
     };
     const auto process = [&](Prepared prepared) {
-      const CameraFrame first = record.frames.empty() ? prepared.frame.frame : CameraFrame{};
-      record.frames.push_back(front_end.process(std::move(prepared.frame)));
+      const CameraFrame first =
+          record.frames.empty() ? without_image(prepared.frame.frame) : CameraFrame{};
+      speeds.feed_until(prepared.frame.frame.time_s, front_end);
+      FrameResult result = front_end.process(std::move(prepared.frame));
+      Settled settled = std::exchange(result.settled, {});
+      record.frames.push_back(std::move(result));
+      record.take(std::move(settled));
       record.decode_ms.push_back(prepared.decode_ms);
       if (record.frames.size() == 1) remember_first(first, front_end, record);
       progress.update(source.progress(), record.frames.size());
@@ -63,10 +106,13 @@ DriveRecord run_drive(const RunOptions& options) {
       record.failure = error.what();
     }
   }
+  record.take(front_end.finish());
   record.interrupted = interrupted();
   if (!record.interrupted) source.finish();
   record.source = source.report();
   record.tilt = front_end.tilt();
+  record.tilt_belief = front_end.tilt_belief();
+  record.scale_uncertainty = front_end.scale_uncertainty();
   record.camera_height = front_end.camera_height();
   return record;
 }

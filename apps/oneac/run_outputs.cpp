@@ -1,10 +1,23 @@
 #include "run_outputs.h"
 
 #include "oneac/base/atomic_file.h"
+#include "oneac/frontend/map_formats.h"
 
 #include <algorithm>
 
 namespace oneac::app {
+
+namespace {
+
+void write_map(const DriveRecord& record, const std::filesystem::path& folder) {
+  write_file_atomically(folder / "keyframes.tum", format_tum(record.keyframe_trajectory()));
+  write_file_atomically(folder / "graph.g2o", format_g2o(record.keyframes));
+  write_file_atomically(folder / "points.ply", format_ply(record.keyframes));
+  write_file_atomically(folder / "map.simplemap",
+                        format_simple_map(record.keyframes, record.mount(), record.camera));
+}
+
+}  // namespace
 
 void write_drive(const DriveRecord& record, const std::filesystem::path& folder) {
   const Trajectory camera = record.camera_trajectory();
@@ -13,6 +26,7 @@ void write_drive(const DriveRecord& record, const std::filesystem::path& folder)
   write_file_atomically(folder / "trajectory_vehicle.tum", format_tum(record.vehicle_trajectory()));
   write_file_atomically(folder / "relative_poses.csv",
                         format_relative_poses(record.relative_poses()));
+  if (!record.keyframes.empty()) write_map(record, folder);
   write_file_atomically(folder / "timings.csv", format_timings(record.timings()));
 }
 

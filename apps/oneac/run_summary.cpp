@@ -99,6 +99,15 @@ std::string metric_word(const DriveRecord& record) {
   return metric == steps ? "all" : "partly";
 }
 
+/// Pieces of the drive between which tracking had to start anew; 1 when it never did.
+std::size_t segments(const DriveRecord& record) {
+  std::size_t last = 0;
+  for (const FrameResult& frame : record.frames) {
+    if (frame.step) last = std::max(last, frame.step->segment);
+  }
+  return last + 1;
+}
+
 Json counts_json(const DriveRecord& record) {
   return {{"images_in_log", record.source.images_in_log},
           {"images_missing", record.source.images_missing},
@@ -107,6 +116,8 @@ Json counts_json(const DriveRecord& record) {
           {"steps_ok", count_status(record, StepStatus::kOk)},
           {"steps_no_motion", count_status(record, StepStatus::kNoMotion)},
           {"steps_predicted", count_status(record, StepStatus::kPredicted)},
+          {"keyframes", record.keyframes.size()},
+          {"segments", segments(record)},
           {"steps_metric", count_steps(record, [](const StepResult& s) { return s.metric; })}};
 }
 
@@ -116,14 +127,16 @@ Json tilt_json(const Tilt& tilt) {
 
 Json camera_json(const DriveRecord& record) {
   const PinholeCamera& c = record.camera;
-  return {{"width_px", c.width},
-          {"height_px", c.height},
-          {"fx_px", c.fx},
-          {"fy_px", c.fy},
-          {"cx_px", c.cx},
-          {"cy_px", c.cy},
-          {"tilt_given", tilt_json(record.given_tilt)},
-          {"tilt_used_last", tilt_json(record.tilt)}};
+  return {
+      {"width_px", c.width},
+      {"height_px", c.height},
+      {"fx_px", c.fx},
+      {"fy_px", c.fy},
+      {"cx_px", c.cx},
+      {"cy_px", c.cy},
+      {"tilt_given", tilt_json(record.given_tilt)},
+      {"tilt_used_last", tilt_json(record.tilt)},
+      {"tilt_sigma", tilt_json({record.tilt_belief.pitch_sigma, record.tilt_belief.roll_sigma})}};
 }
 
 Json gps_json(const GpsComparison& gps) {
@@ -195,6 +208,10 @@ std::string summary_json(const DriveRecord& record, const RunEvaluation& evaluat
   json["seed"] = options.run.seed;
   json["metric"] = metric_word(record);
   json["camera_height_m"] = record.camera_height;
+  json["scale_source"] = options.front_end.scale.source;
+  json["scale_uncertainty"] =
+      std::isfinite(record.scale_uncertainty) ? Json(record.scale_uncertainty) : Json(nullptr);
+  json["tilt_source"] = options.front_end.tilt.source;
   json["counts"] = counts_json(record);
   json["camera"] = camera_json(record);
   json["path_length"] = path_length(record.camera_trajectory().poses);

@@ -12,13 +12,40 @@ void require(bool good, const std::string& field, const std::string& value, cons
 }  // namespace
 
 void TiltOptions::validate() const {
-  require(source == "log" || source == "params", "tilt.source", source, "log or params");
+  const bool known = source == "log" || source == "params" || source == "imu" || source == "drive";
+  require(known, "tilt.source", source, "log, params, imu or drive");
   require(pitch_up_deg > -45.0 && pitch_up_deg < 45.0, "tilt.pitch_up_deg",
           std::to_string(pitch_up_deg), "between -45 and 45");
   require(roll_right_deg > -45.0 && roll_right_deg < 45.0, "tilt.roll_right_deg",
           std::to_string(roll_right_deg), "between -45 and 45");
   require(prior_steps >= 0, "tilt.prior_steps", std::to_string(prior_steps), "at least 0");
   require(window_steps >= 1, "tilt.window_steps", std::to_string(window_steps), "at least 1");
+}
+
+void WindowOptions::validate() const {
+  require(size >= 3, "window.size", std::to_string(size), "at least 3");
+  require(fixed >= 1 && fixed + 2 <= size, "window.fixed", std::to_string(fixed),
+          "from 1 to size - 2");
+  require(min_parallax_deg > 0.0, "window.min_parallax_deg", std::to_string(min_parallax_deg),
+          "positive");
+  require(min_shared >= 0.0 && min_shared <= 1.0, "window.min_shared", std::to_string(min_shared),
+          "from 0 to 1");
+  require(max_rotation_deg > 0.0, "window.max_rotation_deg", std::to_string(max_rotation_deg),
+          "positive");
+  require(max_seconds > 0.0, "window.max_seconds", std::to_string(max_seconds), "positive");
+  require(min_carry >= 3, "window.min_carry", std::to_string(min_carry), "at least 3");
+  require(max_landmarks >= 20, "window.max_landmarks", std::to_string(max_landmarks),
+          "at least 20");
+  refine.validate();
+}
+
+void ScaleOptions::validate() const {
+  require(source == "height" || source == "gps" || source == "none", "scale.source", source,
+          "height, gps or none");
+  require(map_drift > 0.0, "scale.map_drift", std::to_string(map_drift), "positive");
+  require(max_uncertainty > 0.0, "scale.max_uncertainty", std::to_string(max_uncertainty),
+          "positive");
+  require(outlier_sigmas > 0.0, "scale.outlier_sigmas", std::to_string(outlier_sigmas), "positive");
 }
 
 void FrontEndOptions::validate() const {
@@ -30,6 +57,8 @@ void FrontEndOptions::validate() const {
   consensus.validate();
   ground_scale.validate();
   refine.validate();
+  window.validate();
+  scale.validate();
 }
 
 }  // namespace oneac

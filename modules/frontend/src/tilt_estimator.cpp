@@ -1,5 +1,7 @@
 #include "oneac/frontend/tilt_estimator.h"
 
+#include <Eigen/Geometry>
+
 #include <algorithm>
 #include <cmath>
 #include <vector>
@@ -7,10 +9,23 @@
 namespace oneac {
 namespace {
 
+constexpr double kDegree = 3.14159265358979323846 / 180.0;
 // cos 25°: beyond it the car manoeuvres, and the elevation of t mixes with roll.
 constexpr double kMainlyForward = 0.9;
 // [rad] a direction of travel more than 15° above or below the given horizon is no drive.
 constexpr double kLargestElevation = 0.26;
+// [rad] 1σ of a pitch or roll that somebody states: sensor poses are a degree off.
+constexpr double kGivenSigma = 1.0 * kDegree;
+// [rad] 1σ of a tilt nobody states: cameras on cars are within 10° of level.
+constexpr double kUnknownSigma = 10.0 * kDegree;
+// [rad] roll that the suspension adds from one image to the next, 1σ.
+constexpr double kSuspensionRoll = 0.1 * kDegree;
+// [rad] least scatter of the direction of travel from step to step: what the images resolve.
+constexpr double kLeastScatter = 0.2 * kDegree;
+// [σ] a turn whose roll is farther off than this weighs little.
+constexpr double kRollCut = 3.0;
+constexpr int kRollIterations = 5;
+constexpr double kMadToSigma = 1.4826;
 
 double median(std::vector<double> values) {
   const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
@@ -21,28 +36,89 @@ double median(std::vector<double> values) {
 }  // namespace
 
 TiltEstimator::TiltEstimator(const Tilt& given, const TiltOptions& options)
-    : given_(given), options_(options) {}
-
-void TiltEstimator::add_step(const Eigen::Vector3d& t_cam) {
-  if (!options_.refine || !(t_cam.norm() > 0.0)) return;
-  // Points move against the camera: it travels along −t.
-  const Eigen::Vector3d travel = leveling_rotation(given_) * (-t_cam.normalized());
-  if (!(std::abs(travel.z()) > kMainlyForward)) return;
-  // A camera pitched up sees its travel below the axis (Y down > 0); backing reverses both signs.
-  const double elevation = std::atan2(travel.y(), travel.z() > 0.0 ? travel.z() : -travel.z()) *
-                           (travel.z() > 0.0 ? 1.0 : -1.0);
-  if (std::abs(elevation) > kLargestElevation) return;
-  elevations_.push_back(elevation);
-  if (elevations_.size() > static_cast<std::size_t>(options_.window_steps)) {
-    elevations_.pop_front();
-  }
-  const double count = static_cast<double>(elevations_.size());
-  const double trust = count / (count + options_.prior_steps);
-  correction_ = trust * median({elevations_.begin(), elevations_.end()});
+    : given_(given), options_(options) {
+  update();
 }
 
-Tilt TiltEstimator::tilt() const {
-  return {given_.pitch_up + correction_, given_.roll_right};
+void TiltEstimator::set_given(const Tilt& given) {
+  given_ = given;
+  update();
+}
+
+void TiltEstimator::add_step(const RelativePose& T_2_1) {
+  if (!options_.refine) return;
+  const auto limit = static_cast<std::size_t>(options_.window_steps);
+  const Eigen::AngleAxisd turn(T_2_1.R);
+  turns_.push_back(turn.angle() * turn.axis());
+  if (turns_.size() > limit) turns_.pop_front();
+  if (T_2_1.t.norm() > 0.0) {
+    // Points move against the camera: it travels along −t. Backing says the same as driving.
+    const Eigen::Vector3d along = -T_2_1.t.normalized();
+    const Eigen::Vector3d forward = along.z() > 0.0 ? along : Eigen::Vector3d(-along);
+    const Eigen::Vector3d travel = leveling_rotation(given_) * forward;
+    if (travel.z() > kMainlyForward &&
+        std::abs(std::atan2(travel.y(), travel.z())) < kLargestElevation)
+      travels_.push_back(forward);
+    if (travels_.size() > limit) travels_.pop_front();
+  }
+  update();
+}
+
+void TiltEstimator::update() {
+  belief_.tilt.pitch_up = given_.pitch_up + pitch_correction(belief_.pitch_sigma);
+  belief_.tilt.roll_right = given_.roll_right + roll_correction(belief_.roll_sigma);
+}
+
+double TiltEstimator::pitch_correction(double& sigma) const {
+  const bool unknown = options_.source == "drive";
+  const double prior = unknown ? kUnknownSigma : kGivenSigma;
+  sigma = prior;
+  if (travels_.empty()) return 0.0;
+  const Eigen::Matrix3d L = leveling_rotation(given_);
+  std::vector<double> elevations;
+  for (const Eigen::Vector3d& forward : travels_) {
+    const Eigen::Vector3d travel = L * forward;
+    // A camera pitched up sees its travel below the axis (Y down > 0).
+    elevations.push_back(std::atan2(travel.y(), travel.z()));
+  }
+  const double middle = median(elevations);
+  std::vector<double> off;
+  for (const double elevation : elevations) off.push_back(std::abs(elevation - middle));
+  const double scatter = std::max(kMadToSigma * median(std::move(off)), kLeastScatter);
+  const double count = static_cast<double>(elevations.size());
+  sigma = 1.0 / std::sqrt(count / (scatter * scatter) + 1.0 / (prior * prior));
+  const double trust = unknown ? 1.0 : count / (count + options_.prior_steps);
+  return trust * middle;
+}
+
+double TiltEstimator::roll_correction(double& sigma) const {
+  const bool unknown = options_.source == "drive";
+  const double prior = unknown ? kUnknownSigma : kGivenSigma;
+  sigma = prior;
+  const Eigen::Matrix3d L = leveling_rotation(given_);
+  double roll = 0.0;
+  for (int iteration = 0; iteration < kRollIterations; ++iteration) {
+    double information = 1.0 / (prior * prior);
+    double sum = 0.0;
+    for (const Eigen::Vector3d& turn : turns_) {
+      // A camera that leans right by ρ sees a turn ω about the upright as (ω sin ρ, ω cos ρ).
+      const Eigen::Vector3d level = L * turn;
+      const double z = (level.x() - roll * level.y()) / kSuspensionRoll;
+      const double robust = 1.0 / std::pow(1.0 + z * z / (kRollCut * kRollCut), 2);
+      const double weight = robust / (kSuspensionRoll * kSuspensionRoll);
+      information += weight * level.y() * level.y();
+      sum += weight * level.x() * level.y();
+    }
+    roll = sum / information;
+    sigma = 1.0 / std::sqrt(information);
+  }
+  return roll;
+}
+
+Tilt tilt_from_gravity(const Eigen::Matrix3d& R_vehicle_cam, const Eigen::Vector3d& acceleration) {
+  // At rest the accelerometer feels the ground push upwards.
+  const Eigen::Vector3d down = R_vehicle_cam.transpose() * -acceleration.normalized();
+  return {-std::asin(std::clamp(down.z(), -1.0, 1.0)), std::atan2(down.x(), down.y())};
 }
 
 }  // namespace oneac

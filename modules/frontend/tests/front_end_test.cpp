@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include <stdexcept>
+#include <vector>
 
 namespace oneac {
 namespace {
@@ -68,9 +69,11 @@ TEST(FrontEnd, FollowsASimulatedDriveInMetres) {
   EXPECT_GE(metric, 3U);
 }
 
-TEST(FrontEnd, ConcatenatesItsSteps) {
+TEST(FrontEnd, ConcatenatesItsStepsWithoutAWindow) {
   const StreetSimulator street(small_drive());
-  FrontEnd front_end{FrontEndOptions{}};
+  FrontEndOptions options;
+  options.window.enabled = false;
+  FrontEnd front_end{options};
   const auto results = drive(front_end, street);
   EXPECT_TRUE(results[0].T_first_cam.matrix().isIdentity());
   for (std::size_t i = 1; i < results.size(); ++i) {
@@ -78,6 +81,64 @@ TEST(FrontEnd, ConcatenatesItsSteps) {
     EXPECT_NEAR(step.translation().norm(), results[i].step->length, 1e-9);
     EXPECT_LT(rotation_error(step.linear(), results[i].step->pose.R), 1e-9);
   }
+}
+
+TEST(FrontEnd, SettlesEveryFrameOnceAndInOrder) {
+  const StreetSimulator street(small_drive());
+  FrontEnd front_end{FrontEndOptions{}};
+  std::vector<std::size_t> frames;
+  std::vector<Keyframe> keyframes;
+  const auto take = [&](const Settled& settled) {
+    for (const SettledFrame& frame : settled.frames) frames.push_back(frame.frame);
+    keyframes.insert(keyframes.end(), settled.keyframes.begin(), settled.keyframes.end());
+  };
+  for (const FrameResult& result : drive(front_end, street)) take(result.settled);
+  take(front_end.finish());
+  ASSERT_EQ(frames.size(), street.size());
+  for (std::size_t i = 0; i < frames.size(); ++i) EXPECT_EQ(frames[i], i);
+  ASSERT_GE(keyframes.size(), 2U);
+  for (std::size_t i = 0; i < keyframes.size(); ++i) {
+    EXPECT_EQ(keyframes[i].id, i);
+    const Eigen::Isometry3d truth =
+        street.state(0).T_world_cam.inverse() * street.state(keyframes[i].frame).T_world_cam;
+    EXPECT_LT((keyframes[i].T_first_cam.translation() - truth.translation()).norm(),
+              0.05 + 0.1 * truth.translation().norm());
+    if (i > 0) {
+      EXPECT_GT(keyframes[i].information.diagonal().minCoeff(), 0.0);
+    }
+  }
+}
+
+TEST(FrontEnd, AddsNoKeyframeWhileTheVehicleStands) {
+  const StreetSimulator street(small_drive());
+  FrontEnd front_end{FrontEndOptions{}};
+  for (std::size_t i = 0; i < 3; ++i) {
+    static_cast<void>(front_end.process(front_end.prepare(frame_of(street, i))));
+  }
+  for (int i = 1; i <= 5; ++i) {
+    CameraFrame again = frame_of(street, 2);
+    again.time_s += 0.5 * i;
+    const FrameResult result = front_end.process(front_end.prepare(std::move(again)));
+    EXPECT_FALSE(result.keyframe.has_value());
+    EXPECT_EQ(result.step->length, 0.0);
+  }
+}
+
+TEST(FrontEnd, MarksTheSegmentAfterTrackingWasLost) {
+  SimulationOptions longer = small_drive();
+  longer.frames = 9;
+  const StreetSimulator street(longer);
+  FrontEnd front_end{FrontEndOptions{}};
+  std::vector<FrameResult> results;
+  for (std::size_t i = 0; i < street.size(); ++i) {
+    CameraFrame frame = frame_of(street, i);
+    if (i == 5) frame.image = GreyImage(480, 360, 0);
+    results.push_back(front_end.process(front_end.prepare(std::move(frame))));
+  }
+  EXPECT_EQ(results[4].step->segment, 0U);
+  EXPECT_EQ(results.back().step->segment, 1U);
+  EXPECT_EQ(results.back().step->status, StepStatus::kOk);
+  EXPECT_TRUE(results.back().step->metric);
 }
 
 TEST(FrontEnd, IsNotMetricWithoutAHeight) {

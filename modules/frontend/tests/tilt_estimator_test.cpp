@@ -12,9 +12,9 @@ namespace {
 constexpr double kDegree = 3.14159265358979323846 / 180.0;
 
 /// t of a camera with this pitch that drives `metres` along its road, nose wandering a little.
-Eigen::Vector3d step_of(double pitch_up, double metres, double side = 0.0) {
+RelativePose step_of(double pitch_up, double metres, double side = 0.0) {
   const Eigen::Vector3d t_level(side, 0.0, -metres);
-  return leveling_rotation({pitch_up, 0.0}).transpose() * t_level;
+  return {Eigen::Matrix3d::Identity(), leveling_rotation({pitch_up, 0.0}).transpose() * t_level};
 }
 
 TEST(TiltEstimator, StartsWithTheGivenTilt) {
@@ -49,8 +49,8 @@ TEST(TiltEstimator, IgnoresManoeuvresStandsAndAbsurdDirections) {
   TiltEstimator estimator({0.0, 0.0}, {});
   for (int i = 0; i < 50; ++i) {
     estimator.add_step(step_of(3.0 * kDegree, 0.2, 0.5));
-    estimator.add_step(Eigen::Vector3d::Zero());
-    estimator.add_step({0.0, -0.4, -0.9});
+    estimator.add_step(RelativePose{});
+    estimator.add_step({Eigen::Matrix3d::Identity(), {0.0, -0.4, -0.9}});
   }
   EXPECT_EQ(estimator.tilt().pitch_up, 0.0);
 }
@@ -61,6 +61,62 @@ TEST(TiltEstimator, StaysPutWhenTold) {
   TiltEstimator estimator({0.0, 0.0}, fixed);
   for (int i = 0; i < 50; ++i) estimator.add_step(step_of(3.0 * kDegree, 0.5));
   EXPECT_EQ(estimator.tilt().pitch_up, 0.0);
+}
+
+TEST(TiltEstimator, FindsATiltThatNobodyGives) {
+  TiltOptions options;
+  options.source = "drive";
+  TiltEstimator estimator({}, options);
+  EXPECT_GT(estimator.belief().pitch_sigma, 5.0 * kDegree);
+  SceneGenerator scene(62);
+  for (int i = 0; i < 20; ++i) {
+    estimator.add_step(step_of(8.2 * kDegree + scene.normal(0.3 * kDegree), 0.5));
+  }
+  EXPECT_NEAR(estimator.tilt().pitch_up, 8.2 * kDegree, 0.3 * kDegree);
+  EXPECT_LT(estimator.belief().pitch_sigma, 0.2 * kDegree);
+}
+
+TEST(TiltEstimator, FollowsASlowChange) {
+  TiltEstimator estimator({}, {});
+  for (int i = 0; i < 300; ++i) estimator.add_step(step_of(1.0 * kDegree, 0.5));
+  for (int i = 0; i < 300; ++i) estimator.add_step(step_of(2.0 * kDegree, 0.5));
+  EXPECT_NEAR(estimator.tilt().pitch_up, 2.0 * kDegree, 0.2 * kDegree);
+}
+
+TEST(TiltEstimator, LearnsRollFromTheAxisOfTurning) {
+  TiltOptions options;
+  options.source = "drive";
+  TiltEstimator estimator({}, options);
+  const Eigen::Matrix3d L = leveling_rotation({3.0 * kDegree, 2.0 * kDegree});
+  SceneGenerator scene(63);
+  for (int i = 0; i < 60; ++i) {
+    const double turn = 2.0 * kDegree;
+    const Eigen::Matrix3d bounce =
+        rotation_from_vector({scene.normal(0.1 * kDegree), 0.0, scene.normal(0.1 * kDegree)});
+    estimator.add_step(unlevel(
+        {bounce * yaw_rotation(std::cos(turn), std::sin(turn)), Eigen::Vector3d(0.02, 0.0, -0.5)},
+        L));
+  }
+  EXPECT_NEAR(estimator.tilt().pitch_up, 3.0 * kDegree, 0.3 * kDegree);
+  EXPECT_NEAR(estimator.tilt().roll_right, 2.0 * kDegree, 0.5 * kDegree);
+  EXPECT_LT(estimator.belief().roll_sigma, 1.0 * kDegree);
+}
+
+TEST(TiltEstimator, KeepsTheGivenRollOnAStraightRoad) {
+  TiltEstimator estimator({0.0, 1.0 * kDegree}, {});
+  for (int i = 0; i < 100; ++i) estimator.add_step(step_of(0.0, 0.5));
+  EXPECT_NEAR(estimator.tilt().roll_right, 1.0 * kDegree, 0.05 * kDegree);
+  EXPECT_GT(estimator.belief().roll_sigma, 0.9 * kDegree);
+}
+
+TEST(TiltFromGravity, InvertsTheLevellingRotation) {
+  const Tilt truth{8.2 * kDegree, -1.5 * kDegree};
+  Eigen::Matrix3d R_vehicle_level;
+  R_vehicle_level << 0, 0, 1, -1, 0, 0, 0, -1, 0;
+  const Eigen::Matrix3d R_vehicle_cam = R_vehicle_level * leveling_rotation(truth);
+  const Tilt found = tilt_from_gravity(R_vehicle_cam, {0.0, 0.0, 9.81});
+  EXPECT_NEAR(found.pitch_up, truth.pitch_up, 1e-12);
+  EXPECT_NEAR(found.roll_right, truth.roll_right, 1e-12);
 }
 
 }  // namespace

@@ -1,21 +1,25 @@
 #pragma once
 
 #include "oneac/features/feature_options.h"
+#include "oneac/frontend/window_options.h"
 #include "oneac/refine/two_view.h"
 #include "oneac/robust/ground_scale.h"
 #include "oneac/robust/one_ac_consensus.h"
 
+#include <cstddef>
 #include <string>
 
 namespace oneac {
 
 /// Where the camera's pitch and roll come from. The planar solvers need them to within a degree.
 struct TiltOptions {
-  std::string source = "log";  ///< "log": sensor pose of the rawlog; "params": the two angles below
-  double pitch_up_deg = 0.0;   ///< [deg] optical axis above the horizon, with source "params"
+  /// "log": sensor pose of the rawlog; "params": the two angles below; "imu": mean accelerometer;
+  /// "drive": nothing is given, the drive tells
+  std::string source = "log";
+  double pitch_up_deg = 0.0;    ///< [deg] optical axis above the horizon, with source "params"
   double roll_right_deg = 0.0;  ///< [deg] camera leaning to its right, with source "params"
   bool refine =
-      true;  ///< correct the pitch by the direction of travel: sensor poses are a degree off
+      true;  ///< correct pitch and roll by travel and turns: sensor poses are a degree off
   int prior_steps = 10;    ///< how many steps of driving the given pitch is worth
   int window_steps = 100;  ///< steps whose median direction is used; 10 s at 10 Hz
 
@@ -25,6 +29,7 @@ struct TiltOptions {
 /// Everything the front-end can be told. validate() throws std::invalid_argument naming field,
 /// value and bound.
 struct FrontEndOptions {
+  std::string camera;  ///< sensor label for feed(); empty: that of the first image
   std::string initialiser = "1ac_pooled";  ///< method of the relative pose, see initialiser_names()
   double camera_height =
       0.0;  ///< [m] above the road; 0: the height of the log's sensor pose if ≥ 0.5 m
@@ -35,16 +40,21 @@ struct FrontEndOptions {
   GroundScaleOptions ground_scale;
   bool refine_enabled = true;  ///< two-view bundle adjustment after the consensus
   RefineOptions refine;
+  WindowOptions window;
+  ScaleOptions scale;
+  std::size_t seed = 0;  ///< of initialisers that draw random samples; not a key: run.seed is
 
   void validate() const;
 };
 
 template <class Visitor>
 void describe(Visitor&& visit, TiltOptions& o) {
-  visit("source", o.source, "name", "log: sensor pose of the rawlog; params: the angles below");
+  visit("source", o.source, "name",
+        "log: sensor pose; params: the angles below; imu: gravity; drive");
   visit("pitch_up_deg", o.pitch_up_deg, "deg", "optical axis above the horizon (source: params)");
   visit("roll_right_deg", o.roll_right_deg, "deg", "camera leaning to its right (source: params)");
-  visit("refine", o.refine, "bool", "correct the pitch by the direction of travel");
+  visit("refine", o.refine, "bool",
+        "correct pitch and roll by the directions of travel and turning");
   visit("prior_steps", o.prior_steps, "count", "steps of driving that the given pitch is worth");
   visit("window_steps", o.window_steps, "count", "steps whose median direction is used");
 }
@@ -60,6 +70,8 @@ void describe(Visitor&& visit, FrontEndOptions& o) {
   visit.section("consensus", o.consensus);
   visit.section("ground_scale", o.ground_scale);
   visit.section("refine", o.refine);
+  visit.section("window", o.window);
+  visit.section("scale", o.scale);
 }
 
 }  // namespace oneac

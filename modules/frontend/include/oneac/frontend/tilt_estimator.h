@@ -2,6 +2,7 @@
 
 #include "oneac/frontend/front_end_options.h"
 #include "oneac/geometry/leveling.h"
+#include "oneac/geometry/relative_pose.h"
 
 #include <Eigen/Core>
 
@@ -9,30 +10,52 @@
 
 namespace oneac {
 
-/// The rotation that levels the camera: a given tilt, its pitch corrected by the drive.
+/// Tilt with its uncertainty.
+struct TiltBelief {
+  Tilt tilt;
+  double pitch_sigma = 0.0;  ///< [rad] 1σ
+  double roll_sigma = 0.0;   ///< [rad] 1σ
+};
+
+/// The rotation that levels the camera: a given tilt, corrected by the drive.
 ///
-/// A vehicle travels along its road, so in a levelled camera the translation has no vertical part;
-/// the median of its elevation over the recent steps is the error of the given pitch. Roll is not
-/// observable from the direction of travel and stays as given.
+/// Pitch: a vehicle travels along its road, so in a levelled camera the translation has no vertical
+/// part; the median of its elevation over the recent steps is the error of the given pitch.
+/// Roll: a vehicle turns about its upright, so over a bend the rotation of a levelled camera has no
+/// part about its axis; least squares of the roll's share against the yaw's, held by the given
+/// roll. On straight roads the given roll stays. With source "drive" there is nothing given: the
+/// first steps set the pitch.
 class TiltEstimator {
  public:
   TiltEstimator(const Tilt& given, const TiltOptions& options);
 
-  /// Learns from a translation of the (tilted) camera; steps that are not mainly forward are
-  /// ignored.
-  void add_step(const Eigen::Vector3d& t_cam);
+  /// Replaces what is given, e.g. by a longer mean of the accelerometer.
+  void set_given(const Tilt& given);
+  /// Learns from a motion of the (tilted) camera. Steps that are not mainly forward say nothing
+  /// about pitch.
+  void add_step(const RelativePose& T_2_1);
 
-  [[nodiscard]] Tilt tilt() const;
+  [[nodiscard]] const Tilt& tilt() const { return belief_.tilt; }
+  [[nodiscard]] const TiltBelief& belief() const { return belief_; }
   /// R_level_cam of the present tilt.
-  [[nodiscard]] Eigen::Matrix3d leveling() const { return leveling_rotation(tilt()); }
-  /// Correction of the given pitch [rad].
-  [[nodiscard]] double correction() const { return correction_; }
+  [[nodiscard]] Eigen::Matrix3d leveling() const { return leveling_rotation(belief_.tilt); }
 
  private:
+  void update();
+  [[nodiscard]] double pitch_correction(double& sigma) const;
+  [[nodiscard]] double roll_correction(double& sigma) const;
+
   Tilt given_;
   TiltOptions options_;
-  std::deque<double> elevations_;  ///< [rad] of the direction of travel, by the given tilt
-  double correction_ = 0.0;
+  std::deque<Eigen::Vector3d> travels_;  ///< unit, forward, in the camera
+  std::deque<Eigen::Vector3d> turns_;    ///< [rad] rotation vectors in the camera
+  TiltBelief belief_;
 };
+
+/// Tilt of a camera from gravity: the mean of an accelerometer at rest or over a drive.
+/// @param R_vehicle_cam  from the mounting; its heading counts
+/// @param acceleration   specific force in the vehicle frame [m/s²], about +9.8 along Z
+[[nodiscard]] Tilt tilt_from_gravity(const Eigen::Matrix3d& R_vehicle_cam,
+                                     const Eigen::Vector3d& acceleration);
 
 }  // namespace oneac

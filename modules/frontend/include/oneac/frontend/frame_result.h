@@ -1,0 +1,52 @@
+#pragma once
+
+#include "oneac/frontend/keyframe.h"
+#include "oneac/geometry/relative_pose.h"
+
+#include <Eigen/Geometry>
+
+#include <cstddef>
+#include <optional>
+
+namespace oneac {
+
+/// How a step came about.
+enum class StepStatus {
+  kOk,         ///< estimated from the images
+  kNoMotion,   ///< estimated: the camera stood, or turned on the spot
+  kPredicted,  ///< the images did not carry it: the last motion goes on
+};
+[[nodiscard]] const char* to_string(StepStatus status);
+
+/// The motion from the frame before to this one.
+struct StepResult {
+  std::size_t index1 = 0, index2 = 0;  ///< images of the camera in the log
+  double time1 = 0.0, time2 = 0.0;     ///< [s] Unix time
+  StepStatus status = StepStatus::kPredicted;
+  /// T_2_1 of the two images alone, camera optical frame; t in metres when metric, else |t| = 1 or
+  /// 0
+  RelativePose pose;
+  bool metric = false;  ///< t is in metres: the scale is known well enough, or the car stood
+  double length = 0.0;  ///< [m, or units while the drive has no scale] step used in the trajectory
+  double length_sigma = 0.0;   ///< relative 1σ of a metric length
+  std::size_t acs = 0;         ///< affine correspondences of the pair
+  std::size_t inliers = 0;     ///< of them that obey the pose
+  std::size_t ground_acs = 0;  ///< on the road, where the road was last measured in this step
+  std::size_t landmarks = 0;   ///< of the map that carried the length; 0: another source did
+  std::size_t segment = 0;     ///< raised when tracking had to start anew
+  double features_ms = 0.0, estimate_ms = 0.0, refine_ms = 0.0;  ///< CPU time [ms]
+};
+
+/// Pose of one frame and how it came about.
+struct FrameResult {
+  std::size_t index = 0;
+  double time_s = 0.0;
+  /// Camera in the first camera's frame, as known now; `settled` of a later result has the final
+  /// one.
+  Eigen::Isometry3d T_first_cam = Eigen::Isometry3d::Identity();
+  std::optional<StepResult> step;       ///< none for the first frame
+  std::optional<std::size_t> keyframe;  ///< id, when this frame became a keyframe
+  Settled settled;                      ///< what this frame made final
+};
+
+}  // namespace oneac

@@ -1,0 +1,50 @@
+#pragma once
+
+#include "oneac/geometry/relative_pose.h"
+
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace oneac {
+
+/// A landmark of the map, as it was when its last keyframe settled.
+struct MapPoint {
+  Eigen::Vector3d position = Eigen::Vector3d::Zero();  ///< in the first camera's frame
+  Eigen::Vector3d normal = Eigen::Vector3d::Zero();    ///< unit, towards the camera; zero: unknown
+  std::uint8_t grey = 0;                               ///< of the image where it was first seen
+  std::size_t views = 0;                               ///< keyframes that saw it
+};
+
+/// A keyframe that will not move any more, with its constraint to the one before.
+struct Keyframe {
+  std::size_t id = 0;       ///< counts keyframes from 0
+  std::size_t frame = 0;    ///< counts processed frames from 0
+  std::size_t index = 0;    ///< image of the camera in the log
+  double time_s = 0.0;      ///< [s]
+  std::size_t segment = 0;  ///< raised when tracking had to start anew
+  Eigen::Isometry3d T_first_cam = Eigen::Isometry3d::Identity();
+  bool metric = false;  ///< lengths are metres
+  /// Information of the pose of this keyframe relative to the one before, T_before_this, as g2o
+  /// wants it: translation first, then rotation, of a change on the right (in this camera's frame).
+  /// Zero for the first.
+  Eigen::Matrix<double, 6, 6> information = Eigen::Matrix<double, 6, 6>::Zero();
+  std::vector<MapPoint> points;  ///< landmarks whose last sight this keyframe was anchored to
+};
+
+/// Final pose of a frame.
+struct SettledFrame {
+  std::size_t frame = 0;  ///< counts processed frames from 0
+  Eigen::Isometry3d T_first_cam = Eigen::Isometry3d::Identity();
+};
+
+/// What became final.
+struct Settled {
+  std::vector<SettledFrame> frames;
+  std::vector<Keyframe> keyframes;
+};
+
+}  // namespace oneac

@@ -1,0 +1,59 @@
+#pragma once
+
+#include "oneac/refine/sliding_window.h"
+
+#include <string>
+
+namespace oneac {
+
+/// Keyframes and the local map. validate() throws std::invalid_argument.
+struct WindowOptions {
+  bool enabled = true;  ///< off: bare concatenation of two-view poses
+  int size = 8;         ///< [keyframes] of the window; older ones are settled and never move again
+  int fixed = 2;        ///< [keyframes] the oldest of the window hold position, heading and scale
+  double min_parallax_deg = 1.0;  ///< [deg] median parallax that makes a keyframe
+  double min_shared = 0.6;        ///< [-] tracks of the last keyframe still alive, else a keyframe
+  double max_rotation_deg = 8.0;  ///< [deg] since the last keyframe: a fifth of a usual image
+  double max_seconds = 2.0;       ///< [s] between keyframes of a moving camera
+  int min_carry = 8;              ///< landmarks that carry the length of a step, at least
+  int max_landmarks = 400;        ///< in one adjustment, longest tracks first: bounds the time
+  WindowRefineOptions refine;
+
+  void validate() const;
+};
+
+template <class Visitor>
+void describe(Visitor&& visit, WindowOptions& o) {
+  visit("enabled", o.enabled, "bool", "keyframes, local map and sliding-window adjustment");
+  visit("size", o.size, "keyframes", "of the window");
+  visit("fixed", o.fixed, "keyframes", "the oldest of the window, which hold the gauge");
+  visit("min_parallax_deg", o.min_parallax_deg, "deg", "median parallax that makes a keyframe");
+  visit("min_shared", o.min_shared, "-", "share of the last keyframe's tracks below which ...");
+  visit("max_rotation_deg", o.max_rotation_deg, "deg", "rotation above which ...");
+  visit("max_seconds", o.max_seconds, "s", "time after which a moving camera makes a keyframe");
+  visit("min_carry", o.min_carry, "count", "landmarks that carry the length of a step");
+  visit("max_landmarks", o.max_landmarks, "count", "in one adjustment, longest tracks first");
+  visit.section("refine", o.refine);
+}
+
+/// Where metres come from. validate() throws std::invalid_argument.
+struct ScaleOptions {
+  /// "height": road and camera height; "gps": speeds given to FrontEnd; "none"
+  std::string source = "height";
+  double map_drift = 0.005;       ///< [-] 1σ of the map's scale gained from keyframe to keyframe:
+                                  ///< a hundred landmarks whose depths are 5 % off
+  double max_uncertainty = 0.06;  ///< [-] relative 1σ of the scale that counts as metric
+  double outlier_sigmas = 3.0;  ///< [σ] a measurement farther from the map's scale is not believed
+
+  void validate() const;
+};
+
+template <class Visitor>
+void describe(Visitor&& visit, ScaleOptions& o) {
+  visit("source", o.source, "name", "height: road and camera height; gps: speed; none");
+  visit("map_drift", o.map_drift, "-", "1-sigma of the map's scale, keyframe to keyframe");
+  visit("max_uncertainty", o.max_uncertainty, "-", "relative 1-sigma that counts as metric");
+  visit("outlier_sigmas", o.outlier_sigmas, "sigma", "measurements beyond it are left out");
+}
+
+}  // namespace oneac

@@ -1,0 +1,183 @@
+#include "local_map.h"
+
+#include "patch_geometry.h"
+#include "window_exchange.h"
+
+#include "oneac/geometry/angular_errors.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace oneac {
+namespace {
+
+constexpr double kDegree = 3.14159265358979323846 / 180.0;
+// A landmark whose depth is less certain than this carries no length.
+constexpr double kUsefulDepth = 0.3;
+
+double median(std::vector<double> values) {
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+}  // namespace
+
+LocalMap::LocalMap(const WindowOptions& options, double focal_px)
+    : options_(options), focal_px_(focal_px), sigma_(options.refine.point_noise_px / focal_px) {}
+
+void LocalMap::start(std::size_t frame, const RelativePose& T_cam_map) {
+  tracks_.clear();
+  window_.clear();
+  window_.push_back({next_id_++, frame, T_cam_map});
+  newest_is_keyframe_ = window_.back().id;
+  tracks_of_last_ = 0;
+}
+
+void LocalMap::extend(const StepTracks& step, const std::vector<bool>& inliers) {
+  const std::size_t id = newest_is_keyframe_.value_or(0);
+  extend_tracks(step, inliers, newest_is_keyframe_ ? &id : nullptr, tracks_);
+  if (newest_is_keyframe_ && tracks_of_last_ == 0) {
+    tracks_of_last_ = tracks_.size();  // the first keyframe's tracks begin with its first step
+  }
+  newest_is_keyframe_.reset();
+}
+
+std::optional<CarriedLength> LocalMap::carry(const RelativePose& unit_step,
+                                             const RelativePose& T_before_map) const {
+  std::vector<LengthVote> votes;
+  for (const auto& [id, track] : tracks_) {
+    if (!track.alive || !track.has_depth) continue;
+    const double rho = track.inverse_depth;
+    const double rho_sigma = 1.0 / std::sqrt(track.depth_information);
+    if (!(rho_sigma < kUsefulDepth * rho)) continue;
+    const RelativePose T = T_before_map * keyframe(track.anchor).T_cam_map.inverse();
+    // The map tells the depth; where the point lies in the image was measured.
+    const double depth = (T * (track.ray.homogeneous() / rho)).z();
+    const Eigen::Vector3d X = depth * track.previous_x.homogeneous();
+    const auto vote = length_vote(unit_step, X, track.now.x, rho_sigma / rho, sigma_);
+    if (vote) votes.push_back(*vote);
+  }
+  if (votes.size() < static_cast<std::size_t>(options_.min_carry)) return std::nullopt;
+  const RobustMean mean = robust_mean(votes);
+  if (mean.support < static_cast<std::size_t>(options_.min_carry)) return std::nullopt;
+  return CarriedLength{mean.value, mean.relative_sigma, mean.support};
+}
+
+bool LocalMap::needs_keyframe(const RelativePose& T_cam_map, double seconds) const {
+  const WindowKeyframe& last = window_.back();
+  const Eigen::Matrix3d R = T_cam_map.R * last.T_cam_map.R.transpose();
+  std::vector<double> parallax;
+  for (const auto& [id, track] : tracks_) {
+    if (!track.alive || track.seen.empty() || track.seen.back().keyframe != last.id) continue;
+    const Eigen::Vector3d turned = R * track.seen.back().x.homogeneous();
+    parallax.push_back(direction_error(turned, track.now.x.homogeneous()));
+  }
+  const double shared = static_cast<double>(parallax.size());
+  if (shared < options_.min_shared * static_cast<double>(tracks_of_last_)) return true;
+  if (parallax.empty()) return true;
+  if (rotation_error(T_cam_map.R, last.T_cam_map.R) > options_.max_rotation_deg * kDegree)
+    return true;
+  const double moved = median(std::move(parallax));
+  if (moved > options_.min_parallax_deg * kDegree) return true;
+  return seconds > options_.max_seconds && moved > 3.0 * sigma_;
+}
+
+void LocalMap::add_keyframe(std::size_t frame, const RelativePose& T_cam_map) {
+  window_.push_back({next_id_++, frame, T_cam_map});
+  newest_is_keyframe_ = window_.back().id;
+  tracks_of_last_ = 0;
+  for (auto& [id, track] : tracks_) {
+    if (!track.alive) continue;
+    ++tracks_of_last_;
+    track.seen.push_back(track.now);
+    track.seen.back().keyframe = window_.back().id;
+  }
+  triangulate_new();
+  update_depth_information();
+}
+
+void LocalMap::triangulate_new() {
+  for (auto& [id, track] : tracks_) {
+    if (!track.alive || track.has_depth || track.seen.size() < 2) continue;
+    const Sighting& first = track.seen.front();
+    const RelativePose T = window_.back().T_cam_map * keyframe(first.keyframe).T_cam_map.inverse();
+    track.anchor = first.keyframe;
+    track.ray = first.x;
+    track.inverse_depth = inverse_depth_of(T, first.x, track.now.x);
+    track.has_depth = true;
+  }
+}
+
+void LocalMap::update_depth_information() {
+  for (auto& [id, track] : tracks_) {
+    if (!track.has_depth) continue;
+    track.depth_information = 0.0;
+    for (const Sighting& s : track.seen) {
+      if (s.keyframe == track.anchor) continue;
+      const RelativePose T =
+          keyframe(s.keyframe).T_cam_map * keyframe(track.anchor).T_cam_map.inverse();
+      track.depth_information += depth_information(T, track.ray, track.inverse_depth, sigma_);
+    }
+  }
+}
+
+bool LocalMap::refine(const Eigen::Matrix3d& R_level_cam) {
+  if (window_.size() < 2) return false;
+  const double length =
+      (window_[1].T_cam_map.inverse().t - window_[0].T_cam_map.inverse().t).norm();
+  WindowExchange exchange = to_sliding_window(window_, tracks_, options_);
+  exchange.window.R_level_cam = R_level_cam;
+  exchange.window.focal_px = focal_px_;
+  const WindowRefineResult result = refine_window(exchange.window, options_.refine);
+  if (!result.usable) return false;
+  take_back(exchange, window_, tracks_);
+  const double now = (window_[1].T_cam_map.inverse().t - window_[0].T_cam_map.inverse().t).norm();
+  // A short window holds one pose only, so the optimiser may drift along the free scale.
+  if (length > 0.0 && now > 0.0) rescale(length / now);
+  update_depth_information();
+  return true;
+}
+
+KeyframePair LocalMap::pair_with(std::size_t steps_back) const {
+  KeyframePair pair;
+  if (window_.size() <= steps_back) return pair;
+  const WindowKeyframe& first = window_[window_.size() - 1 - steps_back];
+  const WindowKeyframe& last = window_.back();
+  pair.T_2_1 = last.T_cam_map * first.T_cam_map.inverse();
+  for (const auto& [id, track] : tracks_) {
+    if (!track.has_depth) continue;
+    const Sighting* a = track.sighting(first.id);
+    const Sighting* b = track.sighting(last.id);
+    if (a == nullptr || b == nullptr) continue;
+    pair.acs.push_back({a->x, b->x, b->shape * a->shape.inverse()});
+  }
+  return pair;
+}
+
+void LocalMap::rescale(double factor) {
+  if (window_.empty()) return;
+  const Eigen::Vector3d origin = window_.front().T_cam_map.inverse().t;
+  for (WindowKeyframe& kf : window_) {
+    const Eigen::Vector3d centre = kf.T_cam_map.inverse().t;
+    kf.T_cam_map.t = -(kf.T_cam_map.R * (origin + factor * (centre - origin)));
+  }
+  for (auto& [id, track] : tracks_) {
+    track.inverse_depth /= factor;
+    track.gradient /= factor;
+    track.depth_information *= factor * factor;
+  }
+}
+
+const WindowKeyframe& LocalMap::keyframe(std::size_t id) const {
+  return window_.at(position(id));
+}
+
+Eigen::Matrix<double, 6, 6> LocalMap::oldest_constraint() const {
+  if (window_.size() < 2) return Eigen::Matrix<double, 6, 6>::Zero();
+  WindowExchange exchange = to_sliding_window(window_, tracks_, options_);
+  exchange.window.focal_px = focal_px_;
+  return view_information(exchange.window, 1, options_.refine);
+}
+
+}  // namespace oneac

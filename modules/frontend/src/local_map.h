@@ -1,0 +1,93 @@
+#pragma once
+
+#include "track_store.h"
+
+#include "oneac/frontend/keyframe.h"
+#include "oneac/frontend/window_options.h"
+#include "oneac/solvers/span.h"
+
+#include <Eigen/Core>
+
+#include <cstddef>
+#include <deque>
+#include <optional>
+#include <vector>
+
+namespace oneac {
+
+/// Length of a step as the landmarks carry it.
+struct CarriedLength {
+  double length = 0.0;  ///< [map]
+  double sigma = 0.0;   ///< relative 1σ
+  std::size_t support = 0;
+};
+
+/// A keyframe of the window.
+struct WindowKeyframe {
+  std::size_t id = 0;
+  std::size_t frame = 0;  ///< counts processed frames
+  RelativePose T_cam_map;
+};
+
+/// Two views of the same tracks, for the road.
+struct KeyframePair {
+  std::vector<AffineCorrespondence> acs;
+  RelativePose T_2_1;  ///< in lengths of the map
+};
+
+/// Keyframes and landmarks of the recent past. Lengths are those of the map: metres once a scale
+/// was set by rescale(). The map's frame is the first camera's; it goes on through restarts.
+class LocalMap {
+ public:
+  LocalMap(const WindowOptions& options, double focal_px);
+
+  /// The first keyframe of a map; tracks and keyframes before are forgotten.
+  void start(std::size_t frame, const RelativePose& T_cam_map);
+  /// One step further: tracks of its inliers.
+  void extend(const StepTracks& step, const std::vector<bool>& inliers);
+  /// Length of the step (R, t̂) from the frame before to this one by the landmarks that both see.
+  [[nodiscard]] std::optional<CarriedLength> carry(const RelativePose& unit_step,
+                                                   const RelativePose& T_before_map) const;
+  /// Whether the newest frame should be a keyframe.
+  [[nodiscard]] bool needs_keyframe(const RelativePose& T_cam_map, double seconds) const;
+  /// Makes the newest frame one, and landmarks of the tracks that it shares with older ones.
+  void add_keyframe(std::size_t frame, const RelativePose& T_cam_map);
+  /// Adjusts the window; true when it took part.
+  bool refine(const Eigen::Matrix3d& R_level_cam);
+  /// Correspondences between the last keyframe and one before it.
+  [[nodiscard]] KeyframePair pair_with(std::size_t steps_back) const;
+  /// Multiplies all lengths, the oldest keyframe staying where it is.
+  void rescale(double factor);
+  /// Whether the window has one keyframe more than it may.
+  [[nodiscard]] bool is_over_full() const {
+    return window_.size() > static_cast<std::size_t>(options_.size);
+  }
+  /// Takes the oldest keyframe out, with the landmarks that no other keyframe sees.
+  [[nodiscard]] std::vector<MapPoint> retire_oldest();
+
+  [[nodiscard]] const std::deque<WindowKeyframe>& keyframes() const { return window_; }
+  [[nodiscard]] const TrackMap& tracks() const { return tracks_; }
+  /// Information of the second keyframe's pose given the first's, see Keyframe::information;
+  /// of the two oldest ones.
+  [[nodiscard]] Eigen::Matrix<double, 6, 6> oldest_constraint() const;
+
+ private:
+  [[nodiscard]] const WindowKeyframe& keyframe(std::size_t id) const;
+  [[nodiscard]] std::size_t position(std::size_t id) const { return id - window_.front().id; }
+  void triangulate_new();
+  void update_depth_information();
+  [[nodiscard]] MapPoint point_of(const Track& track) const;
+  void forget_sightings(std::size_t id, std::vector<MapPoint>& points);
+  void move_anchor(Track& track);
+
+  WindowOptions options_;
+  double focal_px_;
+  double sigma_;  ///< [-] of a point whose track does not say
+  std::size_t next_id_ = 0;
+  std::optional<std::size_t> newest_is_keyframe_;  ///< id, when the newest frame is one
+  std::size_t tracks_of_last_ = 0;                 ///< alive when the last keyframe was made
+  std::deque<WindowKeyframe> window_;
+  TrackMap tracks_;
+};
+
+}  // namespace oneac

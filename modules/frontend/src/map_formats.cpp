@@ -1,0 +1,74 @@
+#include "oneac/frontend/map_formats.h"
+
+#include <array>
+#include <charconv>
+#include <cstddef>
+
+namespace oneac {
+namespace {
+
+/// The shortest text that reads back as the same number, whatever the locale.
+void append(std::string& text, double value) {
+  std::array<char, 32> digits{};
+  const auto end = std::to_chars(digits.data(), digits.data() + digits.size(), value);
+  text += ' ';
+  text.append(digits.data(), end.ptr);
+}
+
+void append(std::string& text, const Eigen::Vector3d& v) {
+  for (int i = 0; i < 3; ++i) append(text, v(i));
+}
+
+void append(std::string& text, const Eigen::Isometry3d& T) {
+  const Eigen::Quaterniond q(T.linear());
+  const double sign = q.w() < 0.0 ? -1.0 : 1.0;
+  append(text, Eigen::Vector3d(T.translation()));
+  for (const double value : {q.x(), q.y(), q.z(), q.w()}) append(text, sign * value);
+}
+
+}  // namespace
+
+std::string format_g2o(const std::vector<Keyframe>& keyframes) {
+  std::string text;
+  for (const Keyframe& keyframe : keyframes) {
+    text += "VERTEX_SE3:QUAT " + std::to_string(keyframe.id);
+    append(text, keyframe.T_first_cam);
+    text += '\n';
+  }
+  for (std::size_t i = 1; i < keyframes.size(); ++i) {
+    const Keyframe& before = keyframes[i - 1];
+    const Keyframe& now = keyframes[i];
+    text += "EDGE_SE3:QUAT " + std::to_string(before.id) + ' ' + std::to_string(now.id);
+    append(text, before.T_first_cam.inverse() * now.T_first_cam);
+    for (int row = 0; row < 6; ++row) {
+      for (int column = row; column < 6; ++column) append(text, now.information(row, column));
+    }
+    text += '\n';
+  }
+  return text;
+}
+
+std::string format_ply(const std::vector<Keyframe>& keyframes) {
+  std::size_t count = 0;
+  for (const Keyframe& keyframe : keyframes) count += keyframe.points.size();
+  std::string text = "ply\nformat ascii 1.0\nelement vertex " + std::to_string(count) + '\n';
+  for (const char* name : {"x", "y", "z", "nx", "ny", "nz"}) {
+    text += std::string("property float ") + name + '\n';
+  }
+  for (const char* name : {"red", "green", "blue"}) {
+    text += std::string("property uchar ") + name + '\n';
+  }
+  text += "end_header\n";
+  for (const Keyframe& keyframe : keyframes) {
+    for (const MapPoint& point : keyframe.points) {
+      std::string line;
+      append(line, point.position);
+      append(line, point.normal);
+      const std::string grey = ' ' + std::to_string(point.grey);
+      text += line.substr(1) + grey + grey + grey + '\n';
+    }
+  }
+  return text;
+}
+
+}  // namespace oneac

@@ -1,0 +1,95 @@
+#include "patch_geometry.h"
+
+#include <Eigen/Geometry>
+
+#include <algorithm>
+#include <cmath>
+
+namespace oneac {
+namespace {
+
+// [1/length] ten kilometres, for lengths in metres: as good as infinity.
+constexpr double kFarthest = 1e-4;
+constexpr int kIterations = 5;  // of the weights; they settle after three
+constexpr double kCut = 4.0;    // (2σ)², scale of the robust weight
+
+}  // namespace
+
+double inverse_depth_of(const RelativePose& T_2_1, const Eigen::Vector2d& x1,
+                        const Eigen::Vector2d& x2) {
+  const Eigen::Vector3d p = T_2_1.R * x1.homogeneous();
+  const Eigen::Vector2d a = p.head<2>() - x2 * p.z();
+  const Eigen::Vector2d b = T_2_1.t.head<2>() - x2 * T_2_1.t.z();
+  const double rho = b.squaredNorm() > 0.0 ? -a.dot(b) / b.squaredNorm() : 0.0;
+  // In front of the second view too: p_z + ρ t_z > 0, with a margin of a tenth.
+  const double most = T_2_1.t.z() < 0.0 ? 0.9 * p.z() / -T_2_1.t.z() : rho;
+  return std::max(std::min(rho, most), kFarthest);
+}
+
+double depth_information(const RelativePose& T_2_1, const Eigen::Vector2d& x1, double inverse_depth,
+                         double sigma) {
+  const Eigen::Vector3d y = T_2_1.R * x1.homogeneous() + inverse_depth * T_2_1.t;
+  if (!(y.z() > 0.0)) return 0.0;
+  const Eigen::Vector2d u = y.head<2>() / y.z();
+  const Eigen::Vector2d slope = (T_2_1.t.head<2>() - u * T_2_1.t.z()) / y.z();
+  // Both ends of the track are noisy.
+  return slope.squaredNorm() / (2.0 * sigma * sigma);
+}
+
+std::optional<LengthVote> length_vote(const RelativePose& unit_step, const Eigen::Vector3d& X,
+                                      const Eigen::Vector2d& x, double depth_sigma, double sigma) {
+  if (!(X.z() > 0.0)) return std::nullopt;
+  const Eigen::Vector3d p = unit_step.R * X;
+  const Eigen::Vector2d a = p.head<2>() - x * p.z();
+  const Eigen::Vector2d b = unit_step.t.head<2>() - x * unit_step.t.z();
+  const double slope = b.norm();
+  if (!(slope > 0.0) || !(p.z() > 0.0)) return std::nullopt;
+  const double length = -a.dot(b) / (slope * slope);
+  const double from_points = std::sqrt(2.0) * sigma * p.z() / slope;
+  // The error of the depth scales the parallax, and so the length.
+  return LengthVote{length, std::hypot(from_points, depth_sigma * std::abs(length))};
+}
+
+namespace {
+
+double weighted_median(std::vector<LengthVote>& votes) {
+  std::sort(votes.begin(), votes.end(), [](const LengthVote& a, const LengthVote& b) {
+    return a.length < b.length || (a.length == b.length && a.sigma < b.sigma);
+  });
+  double total = 0.0;
+  for (const LengthVote& vote : votes) total += 1.0 / (vote.sigma * vote.sigma);
+  double sum = 0.0;
+  for (const LengthVote& vote : votes) {
+    sum += 1.0 / (vote.sigma * vote.sigma);
+    if (sum >= 0.5 * total) return vote.length;
+  }
+  return votes.back().length;
+}
+
+}  // namespace
+
+RobustMean robust_mean(std::vector<LengthVote> votes) {
+  RobustMean mean;
+  mean.value = weighted_median(votes);
+  double variance = 0.0;
+  for (int iteration = 0; iteration < kIterations; ++iteration) {
+    double weights = 0.0, sum = 0.0, chi2 = 0.0;
+    mean.support = 0;
+    for (const LengthVote& vote : votes) {
+      const double z = (vote.length - mean.value) / vote.sigma;
+      const double robust = 1.0 / ((1.0 + z * z / kCut) * (1.0 + z * z / kCut));
+      const double weight = robust / (vote.sigma * vote.sigma);
+      weights += weight;
+      sum += weight * vote.length;
+      chi2 += robust * z * z;
+      if (z * z < kCut) ++mean.support;
+    }
+    mean.value = sum / weights;
+    variance =
+        std::max(chi2 / std::max<double>(1.0, static_cast<double>(mean.support)), 0.1) / weights;
+  }
+  mean.relative_sigma = std::sqrt(variance) / std::max(std::abs(mean.value), 1e-12);
+  return mean;
+}
+
+}  // namespace oneac

@@ -1,0 +1,46 @@
+#pragma once
+
+#include "oneac/geometry/relative_pose.h"
+
+#include <Eigen/Core>
+
+#include <cstddef>
+#include <optional>
+#include <vector>
+
+namespace oneac {
+
+/// Inverse depth in the first view by least squares; a point that would lie behind or beyond
+/// everything is put very far away. [1/length of t]
+[[nodiscard]] double inverse_depth_of(const RelativePose& T_2_1, const Eigen::Vector2d& x1,
+                                      const Eigen::Vector2d& x2);
+
+/// Inverse variance of the inverse depth that a second view contributes.
+/// @param sigma  1σ of a point [-]
+[[nodiscard]] double depth_information(const RelativePose& T_2_1, const Eigen::Vector2d& x1,
+                                       double inverse_depth, double sigma);
+
+/// What one landmark says about the length of a step.
+struct LengthVote {
+  double length = 0.0;
+  double sigma = 0.0;  ///< absolute 1σ
+};
+
+/// Length of t that brings the point X of the first view closest to x in the second; empty without
+/// parallax.
+/// @param depth_sigma  relative 1σ of the depth of X
+[[nodiscard]] std::optional<LengthVote> length_vote(const RelativePose& unit_step,
+                                                    const Eigen::Vector3d& X,
+                                                    const Eigen::Vector2d& x, double depth_sigma,
+                                                    double sigma);
+
+struct RobustMean {
+  double value = 0.0;
+  double relative_sigma = 0.0;  ///< from the scatter of the votes
+  std::size_t support = 0;
+};
+
+/// Weighted mean about the weighted median (Geman–McClure weights at 2σ). @pre not empty
+[[nodiscard]] RobustMean robust_mean(std::vector<LengthVote> votes);
+
+}  // namespace oneac

@@ -1,0 +1,94 @@
+#include "settling.h"
+
+#include <Eigen/Cholesky>
+
+namespace oneac {
+namespace {
+
+// Where nothing is known: 1σ of a keyframe's turn [rad] and of its position [lengths of the step].
+constexpr double kUnknownTurn = 0.2;
+constexpr double kUnknownPosition = 1.0;
+
+using Matrix6 = Eigen::Matrix<double, 6, 6>;
+
+Eigen::Isometry3d in_first_camera(const RelativePose& T_cam_map) {
+  Eigen::Isometry3d T = Eigen::Isometry3d::Identity();
+  T.linear() = T_cam_map.R.transpose();
+  T.translation() = -(T.linear() * T_cam_map.t);
+  return T;
+}
+
+/// From (w, v) of T_2_1, R ← exp([w]×) R, t ← t + v, to g2o's (translation, quaternion's vector
+/// part) of T_1_2, with the uncertainty of the scale.
+Matrix6 as_g2o(const Matrix6& information, const RelativePose& T_2_1, double scale_sigma) {
+  const double length = std::max(T_2_1.t.norm(), 1e-3);
+  Matrix6 prior = Matrix6::Zero();
+  prior.diagonal().head<3>().setConstant(1.0 / (kUnknownTurn * kUnknownTurn));
+  prior.diagonal().tail<3>().setConstant(1.0 /
+                                         (kUnknownPosition * kUnknownPosition * length * length));
+  const Matrix6 covariance = (information + prior).inverse();
+  Matrix6 J = Matrix6::Zero();
+  J.block<3, 3>(0, 0) = -cross_matrix(T_2_1.t);
+  J.block<3, 3>(0, 3) = -Eigen::Matrix3d::Identity();
+  J.block<3, 3>(3, 0) = -0.5 * Eigen::Matrix3d::Identity();
+  Matrix6 result = J * covariance * J.transpose();
+  result.topLeftCorner<3, 3>() += scale_sigma * scale_sigma * T_2_1.t * T_2_1.t.transpose();
+  const Matrix6 inverse = result.inverse();
+  return 0.5 * (inverse + inverse.transpose());
+}
+
+}  // namespace
+
+void Settling::add_frame(std::size_t frame, std::size_t keyframe,
+                         const RelativePose& T_cam_keyframe) {
+  frames_.push_back({frame, keyframe, T_cam_keyframe});
+}
+
+void Settling::set_metric(bool metric, double scale_sigma) {
+  for (auto& [id, note] : notes_) {
+    note.metric = metric;
+    note.scale_sigma = scale_sigma;
+  }
+}
+
+void Settling::rescale(double factor) {
+  for (Waiting& waiting : frames_) waiting.T_cam_keyframe.t *= factor;
+}
+
+void Settling::settle_oldest(LocalMap& map, Settled& settled) {
+  const WindowKeyframe oldest = map.keyframes().front();
+  const Note note = notes_[oldest.id];
+  notes_.erase(oldest.id);
+  Keyframe keyframe;
+  keyframe.id = oldest.id;
+  keyframe.frame = oldest.frame;
+  keyframe.index = note.index;
+  keyframe.time_s = note.time_s;
+  keyframe.segment = note.segment;
+  keyframe.metric = note.metric;
+  keyframe.T_first_cam = in_first_camera(oldest.T_cam_map);
+  if (T_last_map_) {
+    const RelativePose T = oldest.T_cam_map * T_last_map_->inverse();
+    // A map that began anew is tied to the one before by a guess only.
+    if (note.segment != last_segment_) constraint_.setZero();
+    const double sigma = note.metric ? note.scale_sigma : 0.0;
+    keyframe.information = as_g2o(constraint_, T, sigma);
+  }
+  constraint_ = map.oldest_constraint();
+  T_last_map_ = oldest.T_cam_map;
+  last_segment_ = note.segment;
+  keyframe.points = map.retire_oldest();
+  while (!frames_.empty() && frames_.front().keyframe <= oldest.id) {
+    const Waiting& waiting = frames_.front();
+    settled.frames.push_back(
+        {waiting.frame, in_first_camera(waiting.T_cam_keyframe * oldest.T_cam_map)});
+    frames_.pop_front();
+  }
+  settled.keyframes.push_back(std::move(keyframe));
+}
+
+void Settling::settle_all(LocalMap& map, Settled& settled) {
+  while (!map.keyframes().empty()) settle_oldest(map, settled);
+}
+
+}  // namespace oneac

@@ -1,0 +1,48 @@
+#pragma once
+
+#include "local_map.h"
+
+#include "oneac/frontend/keyframe.h"
+
+#include <cstddef>
+#include <deque>
+#include <map>
+#include <optional>
+
+namespace oneac {
+
+/// Frames wait here, tied to the keyframe before them, until that keyframe is final.
+class Settling {
+ public:
+  /// What a keyframe needs to be reported.
+  struct Note {
+    std::size_t index = 0;
+    double time_s = 0.0;
+    std::size_t segment = 0;
+    bool metric = false;
+    double scale_sigma = 0.0;  ///< relative 1σ of lengths
+  };
+
+  void add_frame(std::size_t frame, std::size_t keyframe, const RelativePose& T_cam_keyframe);
+  void add_keyframe(std::size_t id, const Note& note) { notes_[id] = note; }
+  /// The scale of all keyframes of the window is known so well now.
+  void set_metric(bool metric, double scale_sigma);
+  void rescale(double factor);
+  /// Takes the oldest keyframe out of the map.
+  void settle_oldest(LocalMap& map, Settled& settled);
+  void settle_all(LocalMap& map, Settled& settled);
+
+ private:
+  struct Waiting {
+    std::size_t frame;
+    std::size_t keyframe;
+    RelativePose T_cam_keyframe;
+  };
+  std::deque<Waiting> frames_;
+  std::map<std::size_t, Note> notes_;
+  std::optional<RelativePose> T_last_map_;  ///< of the keyframe settled last, in this segment
+  std::size_t last_segment_ = 0;
+  Eigen::Matrix<double, 6, 6> constraint_ = Eigen::Matrix<double, 6, 6>::Zero();
+};
+
+}  // namespace oneac

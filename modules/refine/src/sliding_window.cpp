@@ -1,0 +1,70 @@
+#include "oneac/refine/sliding_window.h"
+
+#include "window_problem.h"
+
+#include <ceres/solver.h>
+
+#include <cmath>
+#include <stdexcept>
+
+namespace oneac {
+namespace {
+
+// Relative change of the cost that ends the search; see two_view.cpp.
+constexpr double kFunctionTolerance = 1e-5;
+
+void require(bool good, const char* field, double value, const char* bound) {
+  if (good) return;
+  throw std::invalid_argument(std::string("window.") + field + " = " + std::to_string(value) +
+                              ", must be " + bound);
+}
+
+void require_consistent(const SlidingWindow& window) {
+  require(window.focal_px > 0.0, "focal_px", window.focal_px, "positive");
+  for (const WindowLandmark& landmark : window.landmarks) {
+    require(landmark.anchor < window.views.size(), "anchor", static_cast<double>(landmark.anchor),
+            "the index of a view");
+  }
+  for (const WindowObservation& seen : window.observations) {
+    require(seen.view < window.views.size(), "view", static_cast<double>(seen.view),
+            "the index of a view");
+    require(seen.landmark < window.landmarks.size(), "landmark", static_cast<double>(seen.landmark),
+            "the index of a landmark");
+  }
+}
+
+}  // namespace
+
+void WindowRefineOptions::validate() const {
+  const auto positive = [](const char* field, double value) {
+    require(value > 0.0 && std::isfinite(value), field, value, "positive and finite");
+  };
+  positive("point_noise_px", point_noise_px);
+  positive("affine_noise", affine_noise);
+  positive("loss_sigmas", loss_sigmas);
+  positive("affine_gate_chi2", affine_gate_chi2);
+  positive("suspension_deg", suspension_deg);
+  positive("travel_elevation_deg", travel_elevation_deg);
+  require(max_iterations >= 1, "max_iterations", max_iterations, "at least 1");
+}
+
+WindowRefineResult refine_window(SlidingWindow& window, const WindowRefineOptions& options) {
+  options.validate();
+  require_consistent(window);
+  WindowRefineResult result;
+  result.affine_consistent = fit_patches(window, options);
+  WindowProblem problem(window, options);
+  if (problem.empty()) return result;
+  const ceres::Solver::Summary summary = problem.solve(options.max_iterations, kFunctionTolerance);
+  result.initial_cost = summary.initial_cost;
+  result.final_cost = summary.final_cost;
+  result.iterations = summary.num_successful_steps + summary.num_unsuccessful_steps;
+  result.usable = summary.IsSolutionUsable() && summary.final_cost <= summary.initial_cost &&
+                  problem.is_finite();
+  if (!result.usable) return result;
+  problem.store(window);
+  result.affine_consistent = fit_patches(window, options);
+  return result;
+}
+
+}  // namespace oneac
