@@ -38,9 +38,9 @@ struct CrossingFinder {
   return "lower up to " + decimals(*lost_from, 2) + " " + std::string(sweep_unit(sweep));
 }
 
-[[nodiscard]] std::string item(const ExperimentResult& result, Method theirs, StudyMetric metric,
-                               const Comparison& comparison) {
-  const Method ours = result.experiment->methods.front();
+[[nodiscard]] std::string item(const ExperimentResult& result, StudyMethod theirs,
+                               StudyMetric metric, const Comparison& comparison) {
+  const StudyMethod ours = result.experiment->methods.front();
   std::string text = std::string(result.experiment->title) + ", " +
                      std::string(metric_name(metric)) + ": " + std::string(method_label(ours)) +
                      " against " + std::string(method_label(theirs)) + ": lower mean at " +
@@ -60,10 +60,10 @@ struct CrossingFinder {
 template <class Judge>
 void add_findings(const ExperimentResult* result, Claim& claim, Judge&& judge) {
   if (result == nullptr) return;
-  const Method ours = result->experiment->methods.front();
+  const StudyMethod ours = result->experiment->methods.front();
   const bool skip_first = result->experiment->sweep == StudySweep::noise;
   for (const StudyMetric metric : kPose) {
-    for (const Method theirs : {Method::pc4, Method::ac2}) {
+    for (const StudyMethod theirs : {StudyMethod::pc4, StudyMethod::ac2}) {
       const Comparison comparison = compare(*result, ours, theirs, metric, skip_first);
       const bool good = judge(theirs, comparison);
       claim.finding += (good ? "- " : "- **not so:** ") + item(*result, theirs, metric, comparison);
@@ -73,20 +73,20 @@ void add_findings(const ExperimentResult* result, Claim& claim, Judge&& judge) {
   }
 }
 
-[[nodiscard]] bool wins_everywhere(Method, const Comparison& comparison) {
+[[nodiscard]] bool wins_everywhere(StudyMethod, const Comparison& comparison) {
   return comparison.won_all();
 }
 
-[[nodiscard]] bool wins_at_low_noise(Method, const Comparison& comparison) {
+[[nodiscard]] bool wins_at_low_noise(StudyMethod, const Comparison& comparison) {
   return comparison.won_first;
 }
 
 /// Won at the lowest noise against both, lost later on against 4PC.
-[[nodiscard]] bool crosses(Method theirs, const Comparison& comparison) {
-  return comparison.won_first && (theirs != Method::pc4 || comparison.lost_from);
+[[nodiscard]] bool crosses(StudyMethod theirs, const Comparison& comparison) {
+  return comparison.won_first && (theirs != StudyMethod::pc4 || comparison.lost_from);
 }
 
-[[nodiscard]] bool wins_to_one_degree(Method, const Comparison& comparison) {
+[[nodiscard]] bool wins_to_one_degree(StudyMethod, const Comparison& comparison) {
   return comparison.won_first &&
          (!comparison.lost_from || *comparison.lost_from >= kAboutOneDegree);
 }
@@ -106,7 +106,7 @@ void add_findings(const ExperimentResult* result, Claim& claim, Judge&& judge) {
   std::string text = "4PC wins";
   for (const StudyMetric metric : kPose) {
     const Comparison comparison =
-        compare(*result, result->experiment->methods.front(), Method::pc4, metric, true);
+        compare(*result, result->experiment->methods.front(), StudyMethod::pc4, metric, true);
     text += metric == StudyMetric::rotation ? " in rotation " : ", in translation ";
     if (!comparison.lost_from) {
       text += "nowhere up to 1 px (ratio " + decimals(comparison.last_ratio, 2) + " there)";
@@ -144,8 +144,8 @@ void add_findings(const ExperimentResult* result, Claim& claim, Judge&& judge) {
     const ExperimentResult* experiment = result.find(name);
     if (experiment == nullptr) continue;
     for (const StudyMetric metric : kPose) {
-      for (const Method theirs : {Method::pc4, Method::ac2}) {
-        const Method ours = experiment->experiment->methods.front();
+      for (const StudyMethod theirs : {StudyMethod::pc4, StudyMethod::ac2}) {
+        const StudyMethod ours = experiment->experiment->methods.front();
         const auto lost = compare(*experiment, ours, theirs, metric, false).lost_from;
         if (lost && (!least || *lost < *least)) least = lost;
       }
@@ -165,8 +165,8 @@ void add_findings(const ExperimentResult* result, Claim& claim, Judge&& judge) {
 
 }  // namespace
 
-Comparison compare(const ExperimentResult& result, Method ours, Method theirs, StudyMetric metric,
-                   bool skip_first) {
+Comparison compare(const ExperimentResult& result, StudyMethod ours, StudyMethod theirs,
+                   StudyMetric metric, bool skip_first) {
   Comparison comparison;
   CrossingFinder mean, median;
   const std::size_t a = result.index_of(ours), b = result.index_of(theirs);

@@ -58,21 +58,21 @@ constexpr std::array<MethodEntry, 8> kMethods{{
     {"2AC", "homography_2ac", 2, [](AcSpan s) { return of_homography(homography_2ac(s), s); }},
 }};
 
-[[nodiscard]] const MethodEntry& entry(Method method) {
+[[nodiscard]] const MethodEntry& entry(StudyMethod method) {
   return kMethods[static_cast<std::size_t>(method)];
 }
 
 }  // namespace
 
-std::string_view method_label(Method method) {
+std::string_view method_label(StudyMethod method) {
   return entry(method).label;
 }
 
-std::string_view method_solver(Method method) {
+std::string_view method_solver(StudyMethod method) {
   return entry(method).solver;
 }
 
-SolutionSet<PlanePose, 2> candidates_of(Method method, AcSpan correspondences, DataUse use) {
+SolutionSet<PlanePose, 2> candidates_of(StudyMethod method, AcSpan correspondences, DataUse use) {
   const MethodEntry& chosen = entry(method);
   if (correspondences.size() < chosen.correspondences) return {};
   if (use == DataUse::all) return chosen.solve(correspondences);

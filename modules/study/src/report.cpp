@@ -36,7 +36,7 @@ std::string csv_of(const ExperimentResult& result, const Figure& figure, std::si
   std::string csv = std::string(sweep_column(result.experiment->sweep)) +
                     ",method,trials,failures,mean_deg,median_deg,p95_deg\n";
   for (const PointResult& point : result.points) {
-    for (const MethodResult& method : point.methods) {
+    for (const StudyMethodResult& method : point.methods) {
       const ErrorStatistics& errors = method.of(figure.metric);
       csv += decimals(point.value, 1) + "," + std::string(method_label(method.method)) + "," +
              std::to_string(trials) + "," + std::to_string(trials - method.solved) + "," +
@@ -53,7 +53,7 @@ std::string svg_of(const ExperimentResult& result, const Figure& figure, DataUse
   plot.subtitle = subtitle_of(result.experiment->sweep, data_use);
   plot.x_label = std::string(sweep_label(result.experiment->sweep));
   plot.y_label = y_label(figure.metric);
-  for (const Method method : result.experiment->methods) {
+  for (const StudyMethod method : result.experiment->methods) {
     plot.curves.push_back({std::string(method_label(method)), {}});
   }
   for (const PointResult& point : result.points) {

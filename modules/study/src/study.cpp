@@ -36,8 +36,8 @@ struct ErrorLists {
   std::array<std::vector<double>, 3> deg;  ///< by metric, solved trials in order
 };
 
-[[nodiscard]] MethodResult summarised(Method method, ErrorLists& lists) {
-  MethodResult result{method, lists.deg[0].size(), {}};
+[[nodiscard]] StudyMethodResult summarised(StudyMethod method, ErrorLists& lists) {
+  StudyMethodResult result{method, lists.deg[0].size(), {}};
   for (std::size_t i = 0; i < kMetrics.size(); ++i) result.errors[i] = statistics_of(lists.deg[i]);
   return result;
 }
@@ -104,12 +104,12 @@ std::vector<Figure> wanted_figures(const StudyOptions& options) {
   return chosen;
 }
 
-const ErrorStatistics& MethodResult::of(StudyMetric metric) const {
+const ErrorStatistics& StudyMethodResult::of(StudyMetric metric) const {
   return errors[static_cast<std::size_t>(metric)];
 }
 
-std::size_t ExperimentResult::index_of(Method method) const {
-  const std::vector<Method>& methods = experiment->methods;
+std::size_t ExperimentResult::index_of(StudyMethod method) const {
+  const std::vector<StudyMethod>& methods = experiment->methods;
   const auto found = std::find(methods.begin(), methods.end(), method);
   if (found == methods.end()) {
     throw std::invalid_argument("method: " + std::string(method_label(method)) +

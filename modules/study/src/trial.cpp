@@ -79,7 +79,7 @@ double TrialErrors::of(StudyMetric metric) const {
   return metric == StudyMetric::rotation ? rotation : translation;
 }
 
-std::optional<TrialErrors> errors_of(Method method, DataUse use, AcSpan correspondences,
+std::optional<TrialErrors> errors_of(StudyMethod method, DataUse use, AcSpan correspondences,
                                      const StudyScene& scene) {
   std::optional<TrialErrors> best;
   for (const PlanePose& pose : candidates_of(method, correspondences, use)) {

@@ -45,7 +45,7 @@ TEST(StudyReport, CsvNamesItsSweep) {
 TEST(StudyReport, CsvShowsTheErrorOfItsFigure) {
   const StudyResult result = run_study(small({"a", "b"}));
   const auto wanted = wanted_figures(result.options);
-  const MethodResult& ours = result.experiments[0].points[10].methods[0];
+  const StudyMethodResult& ours = result.experiments[0].points[10].methods[0];
   std::istringstream row(lines_of(csv_of(result.experiments[0], wanted[1], 40))[31]);
   std::vector<std::string> cells;
   for (std::string cell; std::getline(row, cell, ',');) cells.push_back(cell);

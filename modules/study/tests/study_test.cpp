@@ -85,7 +85,7 @@ TEST(Study, StatisticsAreThoseOfTheSolvedTrials) {
   const PointResult point = run_point(experiment_named("forward_ground"), 5, small({}, 400));
   ASSERT_EQ(point.methods.size(), 3U);
   EXPECT_DOUBLE_EQ(point.value, 0.5);
-  for (const MethodResult& method : point.methods) {
+  for (const StudyMethodResult& method : point.methods) {
     const ErrorStatistics& errors = method.of(StudyMetric::rotation);
     EXPECT_GT(method.solved, 380U);
     EXPECT_LE(method.solved, 400U);

@@ -22,7 +22,7 @@ TEST(Trial, ZeroNoiseGivesZeroErrorForEveryMethodOfEveryExperiment) {
       for (std::uint64_t seed = 0; seed < 20; ++seed) {
         TrialRandom random(trial_seed(1, experiment.name, 0, seed));
         const auto acs = draw_correspondences(scene, NoiseShape::fixed, random);
-        for (const Method method : experiment.methods) {
+        for (const StudyMethod method : experiment.methods) {
           const AcSpan span(acs.data(), acs.size());
           const auto errors = errors_of(method, DataUse::all, span, scene);
           ASSERT_TRUE(errors) << experiment.name << " " << value << " " << method_label(method);
@@ -97,19 +97,22 @@ TEST(Trial, MethodsUseAsManyCorrespondencesAsTheirNamesSay) {
   const StudyScene scene = scene_at(experiment_named("forward_ground"), 0.5);
   TrialRandom random(8);
   const auto acs = draw_correspondences(scene, NoiseShape::uniform, random);
-  const auto error = [&](Method method, DataUse use, std::size_t broken) {
+  const auto error = [&](StudyMethod method, DataUse use, std::size_t broken) {
     auto changed = acs;
     changed[broken].x2 += Eigen::Vector2d(0.01, 0.02);
     return errors_of(method, use, AcSpan(changed.data(), 4), scene)->translation;
   };
-  EXPECT_NE(error(Method::ac1_ground, DataUse::minimal, 0),
-            error(Method::ac1_ground, DataUse::minimal, 1));
-  EXPECT_EQ(error(Method::ac1_ground, DataUse::minimal, 1),
-            error(Method::ac1_ground, DataUse::minimal, 3));
-  EXPECT_EQ(error(Method::ac2, DataUse::minimal, 2), error(Method::ac2, DataUse::minimal, 3));
-  EXPECT_NE(error(Method::ac2, DataUse::minimal, 1), error(Method::ac2, DataUse::minimal, 3));
-  EXPECT_NE(error(Method::ac1_ground, DataUse::all, 2), error(Method::ac1_ground, DataUse::all, 3));
-  EXPECT_NE(error(Method::ac2, DataUse::all, 2), error(Method::ac2, DataUse::all, 3));
+  EXPECT_NE(error(StudyMethod::ac1_ground, DataUse::minimal, 0),
+            error(StudyMethod::ac1_ground, DataUse::minimal, 1));
+  EXPECT_EQ(error(StudyMethod::ac1_ground, DataUse::minimal, 1),
+            error(StudyMethod::ac1_ground, DataUse::minimal, 3));
+  EXPECT_EQ(error(StudyMethod::ac2, DataUse::minimal, 2),
+            error(StudyMethod::ac2, DataUse::minimal, 3));
+  EXPECT_NE(error(StudyMethod::ac2, DataUse::minimal, 1),
+            error(StudyMethod::ac2, DataUse::minimal, 3));
+  EXPECT_NE(error(StudyMethod::ac1_ground, DataUse::all, 2),
+            error(StudyMethod::ac1_ground, DataUse::all, 3));
+  EXPECT_NE(error(StudyMethod::ac2, DataUse::all, 2), error(StudyMethod::ac2, DataUse::all, 3));
 }
 
 TEST(Trial, EveryMethodIsGivenItsCandidateClosestToTheTruth) {
@@ -119,7 +122,7 @@ TEST(Trial, EveryMethodIsGivenItsCandidateClosestToTheTruth) {
     TrialRandom random(seed);
     const auto acs = draw_correspondences(scene, NoiseShape::uniform, random);
     const AcSpan span(acs.data(), acs.size());
-    for (const Method method : {Method::ac1_wall, Method::pc4, Method::ac2}) {
+    for (const StudyMethod method : {StudyMethod::ac1_wall, StudyMethod::pc4, StudyMethod::ac2}) {
       const auto candidates = candidates_of(method, span, DataUse::all);
       two += candidates.size() == 2 ? 1 : 0;
       const auto errors = errors_of(method, DataUse::all, span, scene);

@@ -25,8 +25,8 @@ struct Comparison {
 };
 
 /// @param skip_first  leaves out the first point, for sweeps of noise: there both errors are zero
-[[nodiscard]] Comparison compare(const ExperimentResult& result, Method ours, Method theirs,
-                                 StudyMetric metric, bool skip_first);
+[[nodiscard]] Comparison compare(const ExperimentResult& result, StudyMethod ours,
+                                 StudyMethod theirs, StudyMetric metric, bool skip_first);
 
 /// What the paper says, and what came out here.
 struct Claim {

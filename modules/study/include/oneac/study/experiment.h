@@ -20,7 +20,7 @@ struct Experiment {
   StudyMotion motion;
   StudySurface surface;
   StudySweep sweep;
-  std::vector<Method> methods;  ///< ours first
+  std::vector<StudyMethod> methods;  ///< ours first
 };
 
 /// A figure shows one error of one experiment.

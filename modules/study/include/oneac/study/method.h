@@ -9,7 +9,7 @@
 namespace oneac {
 
 /// Who takes part in the study.
-enum class Method {
+enum class StudyMethod {
   ac1_ground,
   ac1_ground_rapid,
   ac1_front_wall,
@@ -27,13 +27,13 @@ enum class DataUse {
 };
 
 /// Name in figures and files, e.g. "1AC ground".
-[[nodiscard]] std::string_view method_label(Method method);
+[[nodiscard]] std::string_view method_label(StudyMethod method);
 /// The solver behind it, as in the registry.
-[[nodiscard]] std::string_view method_solver(Method method);
+[[nodiscard]] std::string_view method_solver(StudyMethod method);
 
 /// Candidate poses from the four correspondences of a trial. Signs are resolved by cheirality, so
 /// up to two remain for 1AC vertical and for both homographies.
-[[nodiscard]] SolutionSet<PlanePose, 2> candidates_of(Method method, AcSpan correspondences,
+[[nodiscard]] SolutionSet<PlanePose, 2> candidates_of(StudyMethod method, AcSpan correspondences,
                                                       DataUse use);
 
 }  // namespace oneac

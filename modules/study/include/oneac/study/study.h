@@ -35,8 +35,8 @@ struct ErrorStatistics {
   double p95 = 0.0;
 };
 
-struct MethodResult {
-  Method method;
+struct StudyMethodResult {
+  StudyMethod method;
   std::size_t solved = 0;                   ///< trials with a candidate
   std::array<ErrorStatistics, 3> errors{};  ///< by StudyMetric; zeros when nothing was solved
 
@@ -44,8 +44,8 @@ struct MethodResult {
 };
 
 struct PointResult {
-  double value = 0.0;                 ///< of the sweep
-  std::vector<MethodResult> methods;  ///< in the order of the experiment
+  double value = 0.0;                      ///< of the sweep
+  std::vector<StudyMethodResult> methods;  ///< in the order of the experiment
 };
 
 struct ExperimentResult {
@@ -53,7 +53,7 @@ struct ExperimentResult {
   std::vector<PointResult> points;
 
   /// @throws std::invalid_argument when the method did not take part
-  [[nodiscard]] std::size_t index_of(Method method) const;
+  [[nodiscard]] std::size_t index_of(StudyMethod method) const;
 };
 
 struct StudyResult {

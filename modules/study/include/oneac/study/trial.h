@@ -43,7 +43,7 @@ struct TrialErrors {
 /// The errors of the candidate that is closest to the truth (least ξ_R + ξ_t), for every method
 /// alike: whoever has two candidates is not charged for a choice that one more correspondence
 /// makes. Empty when the method has no candidate.
-[[nodiscard]] std::optional<TrialErrors> errors_of(Method method, DataUse use,
+[[nodiscard]] std::optional<TrialErrors> errors_of(StudyMethod method, DataUse use,
                                                    AcSpan correspondences, const StudyScene& scene);
 
 }  // namespace oneac
