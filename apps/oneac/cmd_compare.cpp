@@ -1,0 +1,194 @@
+#include "commands.h"
+#include "compare_outputs.h"
+#include "interrupt.h"
+#include "progress_bar.h"
+#include "run_options.h"
+
+#include "oneac/base/atomic_file.h"
+#include "oneac/base/error.h"
+#include "oneac/comparison/comparison.h"
+#include "oneac/comparison/plugin.h"
+
+#include <CLI/CLI.hpp>
+
+#include <filesystem>
+#include <iostream>
+#include <memory>
+#include <stdexcept>
+
+namespace oneac::app {
+namespace {
+
+constexpr const char* kRivals = "oneac_rivals";
+constexpr std::size_t kPictures = 6;  // worst pairs with their inliers in the report
+
+struct CompareFlags {
+  RunOptions options;  ///< the keys of `oneac run`, of which those of the refinement are not used
+  std::vector<std::string> parameter_files;
+  std::vector<std::string> settings;
+  std::vector<std::string> logs;
+  std::vector<std::string> merge;
+  std::vector<std::string> plugins;
+  std::vector<std::string> initialisers{"all"};
+  std::vector<std::string> estimators{"default"};
+  std::string shard = "0/1";
+  int trials = 1;
+  bool rivals = false;
+  bool no_progress = false;
+  bool quiet = false;
+};
+
+/// A flag that is also a key: it is kept as a setting and applied last.
+void add_key(CLI::App* verb, const std::string& flag, const std::string& key, CompareFlags& flags,
+             const std::string& help) {
+  verb->add_option_function<std::string>(
+      flag,
+      [&flags, key](const std::string& value) { flags.settings.push_back(key + "=" + value); },
+      help);
+}
+
+/// What the methods are configured with: their sections of the front-end's parameters.
+std::string method_parameters(FrontEndOptions options) {
+  ParameterTable table;
+  table.add("consensus", options.consensus);
+  return table.to_yaml(false);
+}
+
+CompareSettings settings_from(CompareFlags& flags) {
+  RunOptions& options = flags.options;
+  apply_settings(flags.parameter_files, flags.settings, options);
+  options.validate();
+  CompareSettings settings;
+  settings.logs = flags.logs;
+  settings.source = options.source.for_log("");
+  settings.features = options.front_end.features;
+  const TiltOptions& tilt = options.front_end.tilt;
+  settings.tilt = {tilt.source, tilt.pitch_up_deg, tilt.roll_right_deg, tilt.refine};
+  settings.reference = options.run.reference;
+  settings.method_parameters = method_parameters(options.front_end);
+  settings.trials = flags.trials;
+  settings.seed = static_cast<std::uint64_t>(options.run.seed);
+  settings.methods = plan_methods(flags.initialisers, flags.estimators);
+  settings.validate();
+  return settings;
+}
+
+void load_plugins(const CompareFlags& flags) {
+  if (flags.rivals) load_plugin(find_plugin(kRivals));
+  for (const std::string& plugin : flags.plugins) load_plugin(plugin);
+}
+
+void tell(const CompareFlags& flags, const std::vector<std::string>& notes) {
+  if (flags.quiet) return;
+  for (const std::string& note : notes) std::cerr << "oneac: " << note << '\n';
+}
+
+void compare(CompareFlags& flags) {
+  const CompareSettings settings = settings_from(flags);
+  const Shard shard = parse_shard(flags.shard);
+  require_writable_folder(flags.options.output);
+  Journal journal(flags.options.output, settings, shard);
+  catch_interrupts();
+  std::vector<std::string> damage;
+  {
+    ProgressBar bar(flags.options.run.progress && !flags.no_progress && !flags.quiet, "pairs");
+    CompareHooks hooks;
+    hooks.threads = flags.options.run.threads;
+    hooks.keep_going = [] { return !interrupted(); };
+    hooks.progress = [&bar](double share, std::size_t pairs) { bar.update(share, pairs); };
+    damage = run_comparison(settings, shard, journal, hooks);
+  }
+  std::vector<std::string> notes = damage;
+  if (interrupted()) {
+    notes.emplace_back("interrupted: run the same command again and it goes on from here");
+  }
+  tell(flags, notes);
+  // An interrupt wants the files soon: without pictures.
+  write_comparison(merge_journals(settings, {journal.content()}), settings, notes,
+                   interrupted() ? 0 : kPictures, flags.options.output);
+  if (interrupted()) throw std::runtime_error("interrupted; what was computed is written");
+  if (!damage.empty()) throw InputError("log", damage.front(), "");
+}
+
+void merge(const CompareFlags& flags) {
+  std::vector<JournalContent> journals;
+  for (const auto& path : find_journals({flags.merge.begin(), flags.merge.end()})) {
+    journals.push_back(read_journal(path));
+  }
+  const CompareSettings settings = settings_of(journals.front());
+  require_writable_folder(flags.options.output);
+  const ComparisonData data = merge_journals(settings, journals);
+  std::vector<std::string> notes;
+  if (data.pairs.size() < data.pairs_planned || data.logs.size() < settings.logs.size()) {
+    notes.push_back("not complete: " + std::to_string(data.pairs.size()) + " of " +
+                    std::to_string(data.pairs_planned) + " pairs of " +
+                    std::to_string(data.logs.size()) + " of " +
+                    std::to_string(settings.logs.size()) + " logs");
+  }
+  tell(flags, notes);
+  write_comparison(data, settings, notes, kPictures, flags.options.output);
+}
+
+void run(CompareFlags& flags) {
+  if (flags.options.output.empty()) {
+    throw InputError("compare", "no output folder given", "add -o DIR");
+  }
+  if (flags.logs.empty() && flags.merge.empty()) {
+    throw InputError("compare", "no rawlog given", "oneac compare LOG... -o DIR");
+  }
+  if (!flags.logs.empty() && !flags.merge.empty()) {
+    throw InputError("compare --merge", "takes folders, no logs", "leave the logs out");
+  }
+  load_plugins(flags);
+  if (flags.merge.empty()) {
+    compare(flags);
+  } else {
+    merge(flags);
+  }
+}
+
+void add_selection(CLI::App* verb, CompareFlags& flags) {
+  add_key(verb, "--features", "front_end.features.extractor", flags, "extractor of the ACs");
+  add_key(verb, "--images-dir", "source.images_dir", flags, "folder of the external images");
+  add_key(verb, "--camera", "source.camera", flags, "left, right or a sensor label");
+  add_key(verb, "--calibration", "source.calibration", flags,
+          "FILE[:SECTION] instead of the log's");
+  add_key(verb, "--first", "source.first", flags, "first image to use, from 0");
+  add_key(verb, "--count", "source.count", flags, "images to use at most; 0: all");
+  add_key(verb, "--every", "source.every", flags, "use every K-th image");
+  add_key(verb, "--reference", "run.reference", flags, "true poses of the only log");
+  add_key(verb, "--seed", "run.seed", flags, "of the first trial; the next has one more");
+  add_key(verb, "--threads", "run.threads", flags, "pairs at once, one thread each");
+}
+
+}  // namespace
+
+void add_compare(CLI::App& program) {
+  auto* verb = program.add_subcommand(
+      "compare", "Gives the same correspondences to every initialiser: table, CDFs, report");
+  auto flags = std::make_shared<CompareFlags>();
+  verb->add_option("LOG", flags->logs, "rawlogs: plain, .gz or zstd");
+  verb->add_option("-o,--output", flags->options.output, "folder for the results, made if missing");
+  verb->add_option("--initialisers", flags->initialisers, "all, or names A,B,…")
+      ->delimiter(',')
+      ->allow_extra_args(false);
+  verb->add_option("--estimators", flags->estimators, "default, all, or names A,B,…")
+      ->delimiter(',')
+      ->allow_extra_args(false);
+  verb->add_option("--trials", flags->trials, "per pair and method, each with its own seed");
+  verb->add_flag("--rivals", flags->rivals, "methods of OpenCV and OpenGV as well");
+  verb->add_option("--plugin", flags->plugins, "library with initialisers; may be repeated")
+      ->allow_extra_args(false);
+  verb->add_option("--shard", flags->shard, "i/n: only the pairs with number i modulo n");
+  verb->add_option("--merge", flags->merge, "puts the results of shards together: their folders");
+  verb->add_option("--params", flags->parameter_files, "YAML with parameters; may be repeated")
+      ->allow_extra_args(false);
+  verb->add_option("--set", flags->settings, "section.key=value, any key of params/default.yaml")
+      ->allow_extra_args(false);
+  add_selection(verb, *flags);
+  verb->add_flag("--no-progress", flags->no_progress, "no progress bar");
+  verb->add_flag("--quiet", flags->quiet, "no progress bar, notes or warnings");
+  verb->callback([flags] { run(*flags); });
+}
+
+}  // namespace oneac::app

@@ -1,0 +1,11 @@
+# oneac_plugin(TARGET): lets a MODULE library see oneac's headers; its functions come from the
+# program that loads it (--plugin), never from a second copy inside the library.
+function(oneac_plugin target)
+  foreach(module initialisers robust solvers geometry base mrpt_compat)
+    target_include_directories(${target} PRIVATE
+      $<TARGET_PROPERTY:oneac::${module},INTERFACE_INCLUDE_DIRECTORIES>)
+  endforeach()
+  target_compile_features(${target} PRIVATE cxx_std_17)
+  target_link_libraries(${target} PRIVATE Eigen3::Eigen mrpt::containers mrpt::system)
+  set_target_properties(${target} PROPERTIES PREFIX "")
+endfunction()

@@ -1,0 +1,51 @@
+#pragma once
+
+#include "oneac/comparison/given_tilt.h"
+#include "oneac/comparison/method.h"
+#include "oneac/features/feature_options.h"
+#include "oneac/rawlog/rawlog_source.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace oneac {
+
+/// Which part of the pairs: those whose number modulo `count` is `index`.
+struct Shard {
+  std::size_t index = 0;
+  std::size_t count = 1;
+
+  [[nodiscard]] bool has(std::size_t ordinal) const { return ordinal % count == index; }
+  /// "0of1", the part of the journal's name.
+  [[nodiscard]] std::string name() const;
+};
+
+/// Reads "i/n", 0 ≤ i < n. @throws InputError naming the text
+[[nodiscard]] Shard parse_shard(const std::string& text);
+
+/// Everything that the results of a comparison depend on.
+struct CompareSettings {
+  std::vector<std::string> logs;
+  SourceOptions source;  ///< `log` is not used
+  FeatureOptions features;
+  GivenTilt tilt;
+  std::string reference;  ///< poses of the only log; "": beside each log, else its GPS
+  std::vector<CompareMethod> methods;
+  std::string method_parameters;  ///< YAML, see make_method
+  int trials = 1;                 ///< per pair and method; trial k has the seed `seed` + k
+  std::uint64_t seed = 0;
+
+  /// One log's source. @pre log < logs.size()
+  [[nodiscard]] SourceOptions source_of(std::size_t log) const;
+  /// Short name of each log for tables, without comma, each different.
+  [[nodiscard]] std::vector<std::string> log_names() const;
+  [[nodiscard]] std::vector<std::string> method_labels() const;
+  /// All of the above as one line of JSON; equal text means equal results.
+  [[nodiscard]] std::string fingerprint() const;
+  /// @throws InputError naming field, value and bound
+  void validate() const;
+};
+
+}  // namespace oneac

@@ -1,0 +1,23 @@
+#include "oneac/comparison/comparison.h"
+
+#include "log_run.h"
+
+namespace oneac {
+
+std::vector<std::string> run_comparison(const CompareSettings& settings, const Shard& shard,
+                                        Journal& journal, const CompareHooks& hooks) {
+  internal::Methods methods;
+  for (const CompareMethod& method : settings.methods) {
+    methods.push_back(make_method(method, settings.method_parameters));
+  }
+  std::vector<std::string> damage;
+  std::size_t done = journal.content().pairs.size();
+  for (std::size_t log = 0; log < settings.logs.size() && hooks.keep_going(); ++log) {
+    internal::LogRun run(settings, log, hooks);
+    if (!run.scan().damage.empty()) damage.push_back(run.scan().damage);
+    if (run.begin(journal)) run.run(methods, shard, journal, done);
+  }
+  return damage;
+}
+
+}  // namespace oneac
