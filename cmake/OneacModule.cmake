@@ -28,17 +28,22 @@ function(oneac_common target)
   endif()
 endfunction()
 
-# oneac_module(NAME SOURCES ... PUBLIC ... PRIVATE ...): library oneac_NAME, alias oneac::NAME.
+# oneac_module(NAME SOURCES ... PUBLIC ... PRIVATE ...): library oneac_NAME, alias oneac::NAME,
+# installed with its headers.
 function(oneac_module name)
   cmake_parse_arguments(M "" "" "SOURCES;PUBLIC;PRIVATE" ${ARGN})
   add_library(oneac_${name} STATIC ${M_SOURCES})
   add_library(oneac::${name} ALIAS oneac_${name})
   target_include_directories(oneac_${name} PUBLIC
-    $<BUILD_INTERFACE:${CMAKE_CURRENT_SOURCE_DIR}/include> $<INSTALL_INTERFACE:include>)
+    $<BUILD_INTERFACE:${CMAKE_CURRENT_SOURCE_DIR}/include>
+    $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>)
   target_compile_features(oneac_${name} PUBLIC cxx_std_17)
+  # Headers only: nothing that the users of the installed library would have to find.
+  list(TRANSFORM M_PRIVATE REPLACE "^nlohmann_json::.*$" "$<BUILD_INTERFACE:\\0>")
   target_link_libraries(oneac_${name} PUBLIC ${M_PUBLIC} PRIVATE ${M_PRIVATE})
   set_target_properties(oneac_${name} PROPERTIES POSITION_INDEPENDENT_CODE ON)
   oneac_common(oneac_${name})
+  oneac_install_module(${name} ${M_PUBLIC} ${M_PRIVATE})
 endfunction()
 
 # oneac_test(NAME SOURCES ... LINK ...): GoogleTest program NAME, every test known to ctest.

@@ -1,3 +1,5 @@
+#include "log_layout.h"
+
 #include "oneac/geometry/leveling.h"
 #include "oneac/rawlog/log_summary.h"
 
@@ -133,7 +135,7 @@ std::string to_text(const LogSummary& summary) {
   }
   lines += sensor_lines(summary);
   lines += summary.cameras.empty() ? "images: none\n" : camera_lines(summary);
-  return lines + reference_lines(summary);
+  return lines + reference_lines(summary) + missing_lines(summary);
 }
 
 }  // namespace oneac

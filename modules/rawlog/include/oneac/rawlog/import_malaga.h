@@ -15,10 +15,10 @@ struct MalagaImport {
 };
 
 /// Writes the extract as a rawlog: a CObservationStereoImages per pair
-/// img_<label>_<time>_left|right, either side of which may be missing; GPS and IMU from *_GPS.txt
-/// and *_IMU.txt, in time order. The calibration is that of the camera_params_*.txt made for the
-/// size of the images, a rectified one before a raw one. The camera sits where the dataset's own
-/// logs say: (0.785, 0, 0.273) m, 8.2° upwards, stored x-forward.
+/// `img_<label>_<time>_left|right`, either side of which may be missing; GPS and IMU from
+/// `*_GPS.txt` and `*_IMU.txt`, in time order. The calibration is that of `camera_params_*.txt` for
+/// the size of the images, a rectified one before a raw one. The camera sits where the dataset's
+/// own logs say: (0.785, 0, 0.273) m, 8.2° upwards, stored x-forward.
 /// @throws InputError naming file or folder, what is wrong with it and the cure
 ImportReport import_malaga(const MalagaImport& options);
 

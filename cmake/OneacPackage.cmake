@@ -1,0 +1,22 @@
+# `cpack` makes the Debian package; bash apps/package.sh does all of it.
+set(CPACK_GENERATOR DEB)
+set(CPACK_PACKAGE_NAME oneac)
+set(CPACK_PACKAGE_VENDOR "the oneac authors")
+set(CPACK_PACKAGE_CONTACT "the oneac authors <oneac@localhost>")
+set(CPACK_PACKAGE_DESCRIPTION_SUMMARY "vehicle egomotion from one camera, out of MRPT rawlogs")
+set(CPACK_RESOURCE_FILE_LICENSE "${PROJECT_SOURCE_DIR}/LICENSE")
+set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
+set(CPACK_STRIP_FILES ON)
+set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
+set(CPACK_DEBIAN_PACKAGE_SECTION science)
+set(CPACK_DEBIAN_PACKAGE_DESCRIPTION
+"The program reads the rawlog of a vehicle-mounted camera and writes a metric
+trajectory, each hypothesis from a single affine correspondence. The library
+is the same as a front-end for programs of one's own: find_package(oneac).")
+# The shared libraries in use, with the versions they were built with.
+set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
+# Needed by find_package(oneac), not by the program.
+string(JOIN ", " CPACK_DEBIAN_PACKAGE_SUGGESTS
+  g++ cmake libeigen3-dev libopencv-dev libceres-dev libvlfeat-dev libmrpt-obs-dev
+  libmrpt-topography-dev libyaml-cpp-dev zlib1g-dev libzstd-dev)
+include(CPack)

@@ -1,0 +1,54 @@
+#!/usr/bin/env bash
+# Installs the build tree, moves what was installed, and builds and runs programs against it:
+#   bash install_test.sh BUILD_DIR SOURCE_DIR
+set -euo pipefail
+source "$(dirname "${BASH_SOURCE[0]}")/expect.sh"
+build=$1
+tests="$2/tests/packaging"
+oneac="$scratch/moved/bin/oneac"
+
+# build_against_moved PROJECT: configures and builds it in the scratch folder.
+build_against_moved() {
+  run cmake -S "$tests/$1" -B "$scratch/$1" -DCMAKE_BUILD_TYPE=Release \
+    -DCMAKE_PREFIX_PATH="$scratch/moved" -DCMAKE_CXX_FLAGS="-Wall -Wextra -Werror"
+  expect_code 0
+  run cmake --build "$scratch/$1"
+  expect_code 0
+}
+
+case_name "installs into a prefix, which then moves"
+run cmake --install "$build" --prefix "$scratch/first"
+expect_code 0
+mv "$scratch/first" "$scratch/moved"
+for file in bin/oneac include/oneac/frontend/front_end.h share/oneac/params/default.yaml \
+  share/doc/oneac/copyright share/bash-completion/completions/oneac \
+  share/oneac/datasets/fetch.sh; do
+  [ -f "$scratch/moved/$file" ] || fail "$file is not installed"
+done
+
+case_name "writes no path of the source, the build or the first prefix"
+config=$(dirname "$(find "$scratch/moved" -name oneacConfig.cmake)")
+run grep -rlF -e "$2" -e "$build" -e "$scratch/first" "$config"
+expect_code 1
+
+case_name "keeps sources, tests and internal headers at home"
+run find "$scratch/moved" -name '*.cpp' -o -name '*_test*' -o -path '*/src/*'
+[ ! -s "$run_output" ] || fail "installed too much"
+
+case_name "the moved program runs"
+run "$oneac" --version
+expect_code 0
+run "$oneac" simulate -o "$scratch/drive" --frames 12 --width 320 --height 240 --focal 250
+expect_code 0
+
+case_name "find_package(oneac) serves a program of one's own"
+build_against_moved consumer
+run "$scratch/consumer/consumer" "$scratch/drive/simulated.rawlog" "$scratch/drive/Images" 1.65
+expect_code 0
+[ "$(grep -cE '^[0-9.]+( -?[0-9]+\.[0-9]+){7}$' "$run_output")" -eq 12 ] || fail "not 12 poses"
+[ "$(wc -l <"$run_output")" -eq 12 ] || fail "more than poses"
+
+case_name "every module can be found, included and linked"
+build_against_moved all_modules
+run "$scratch/all_modules/all_modules"
+expect_code 0
