@@ -2,7 +2,6 @@
 
 #include "odometry.h"
 
-#include "oneac/base/parameter_table.h"
 #include "oneac/base/thread_clock.h"
 #include "oneac/frontend/observation_input.h"
 
@@ -18,10 +17,9 @@
 namespace oneac {
 namespace {
 
-mrpt::containers::yaml to_yaml(ConsensusOptions options) {
-  ParameterTable table;
-  table.add("consensus", options);
-  return mrpt::containers::yaml::FromText(table.to_yaml(false));
+mrpt::containers::yaml initialiser_yaml(const FrontEndOptions& options) {
+  const InitialiserOptions chosen{options.estimator, options.consensus, options.gc_ransac};
+  return mrpt::containers::yaml::FromText(chosen.to_yaml());
 }
 
 std::uint8_t grey_at(const ImageView& image, const Eigen::Vector2d& u) {
@@ -68,11 +66,13 @@ FrontEnd::FrontEnd(const FrontEndOptions& options)
   options_.validate();
   tracker_ = make_tracker(options_.features);
   const RelativePoseInitialiser::Ptr initialiser = make_initialiser(options_.initialiser);
-  initialiser->configure(to_yaml(options_.consensus));
+  initialiser->configure(initialiser_yaml(options_));
   odometry_ = std::make_unique<Odometry>(options_, initialiser);
 }
 
-FrontEnd::~FrontEnd() = default;
+FrontEnd::~FrontEnd() {
+  profiler_.clear(true);  // what is left in it would be printed
+}
 
 PreparedFrame FrontEnd::prepare(CameraFrame frame) const {
   PreparedFrame prepared;
@@ -90,8 +90,9 @@ FrameResult FrontEnd::process(PreparedFrame prepared) {
   StepTracks tracks;
   {
     const StageTimer timer(features_ms);
-    const TrackedPair pair = tracker_->advance(std::move(prepared.features), hint());
+    TrackedPair pair = tracker_->advance(std::move(prepared.features), hint());
     tracks = normalised(pair, previous_camera_, frame);
+    correspondences_ = std::move(pair);
   }
   previous_camera_ = frame.camera;
   prepared.frame.image = {};

@@ -54,7 +54,7 @@ void FrontEndOptions::validate() const {
   require(max_hold >= 0.0, "front_end.max_hold", std::to_string(max_hold), "at least 0");
   tilt.validate();
   features.validate();
-  consensus.validate();
+  InitialiserOptions{estimator, consensus, gc_ransac}.validate();
   ground_scale.validate();
   refine.validate();
   window.validate();

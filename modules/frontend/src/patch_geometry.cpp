@@ -10,6 +10,9 @@ namespace {
 
 // [1/length] ten kilometres, for lengths in metres: as good as infinity.
 constexpr double kFarthest = 1e-4;
+// Relative 1σ of a depth at best. The formal one of a near point seen by eight keyframes is a
+// tenth of it; a handful of those, slipped along an edge or on traffic, would outvote all others.
+constexpr double kSurestDepth = 0.02;
 constexpr int kIterations = 5;  // of the weights; they settle after three
 constexpr double kCut = 4.0;    // (2σ)², scale of the robust weight
 
@@ -46,21 +49,31 @@ std::optional<LengthVote> length_vote(const RelativePose& unit_step, const Eigen
   if (!(slope > 0.0) || !(p.z() > 0.0)) return std::nullopt;
   const double length = -a.dot(b) / (slope * slope);
   const double from_points = std::sqrt(2.0) * sigma * p.z() / slope;
-  // The error of the depth scales the parallax, and so the length.
-  return LengthVote{length, std::hypot(from_points, depth_sigma * std::abs(length))};
+  return LengthVote{length, from_points, depth_sigma};
+}
+
+double LengthVote::sigma(double true_length) const {
+  return std::hypot(point_sigma, std::max(depth_sigma, kSurestDepth) * true_length);
 }
 
 namespace {
 
-double weighted_median(std::vector<LengthVote>& votes) {
-  std::sort(votes.begin(), votes.end(), [](const LengthVote& a, const LengthVote& b) {
-    return a.length < b.length || (a.length == b.length && a.sigma < b.sigma);
-  });
+bool shorter(const LengthVote& a, const LengthVote& b) {
+  return a.length < b.length || (a.length == b.length && a.point_sigma < b.point_sigma);
+}
+
+/// The length at which half of the weight is reached, weights for a true length of `assumed`.
+double weighted_median(std::vector<LengthVote>& votes, double assumed) {
+  std::sort(votes.begin(), votes.end(), shorter);
+  const auto weight = [=](const LengthVote& vote) {
+    const double sigma = vote.sigma(assumed);
+    return 1.0 / (sigma * sigma);
+  };
   double total = 0.0;
-  for (const LengthVote& vote : votes) total += 1.0 / (vote.sigma * vote.sigma);
+  for (const LengthVote& vote : votes) total += weight(vote);
   double sum = 0.0;
   for (const LengthVote& vote : votes) {
-    sum += 1.0 / (vote.sigma * vote.sigma);
+    sum += weight(vote);
     if (sum >= 0.5 * total) return vote.length;
   }
   return votes.back().length;
@@ -70,15 +83,18 @@ double weighted_median(std::vector<LengthVote>& votes) {
 
 RobustMean robust_mean(std::vector<LengthVote> votes) {
   RobustMean mean;
-  mean.value = weighted_median(votes);
+  const auto middle = votes.begin() + static_cast<std::ptrdiff_t>(votes.size() / 2);
+  std::nth_element(votes.begin(), middle, votes.end(), shorter);
+  mean.value = weighted_median(votes, middle->length);
   double variance = 0.0;
   for (int iteration = 0; iteration < kIterations; ++iteration) {
     double weights = 0.0, sum = 0.0, chi2 = 0.0;
     mean.support = 0;
     for (const LengthVote& vote : votes) {
-      const double z = (vote.length - mean.value) / vote.sigma;
+      const double sigma = vote.sigma(mean.value);
+      const double z = (vote.length - mean.value) / sigma;
       const double robust = 1.0 / ((1.0 + z * z / kCut) * (1.0 + z * z / kCut));
-      const double weight = robust / (vote.sigma * vote.sigma);
+      const double weight = robust / (sigma * sigma);
       weights += weight;
       sum += weight * vote.length;
       chi2 += robust * z * z;

@@ -23,7 +23,12 @@ namespace oneac {
 /// What one landmark says about the length of a step.
 struct LengthVote {
   double length = 0.0;
-  double sigma = 0.0;  ///< absolute 1σ
+  double point_sigma = 0.0;  ///< 1σ of it by the noise of the points
+  double depth_sigma = 0.0;  ///< relative 1σ of the depth, and so of the true length
+
+  /// 1σ when the true length is known. Not of the vote's own length: what votes for zero, traffic
+  /// ahead, would otherwise look most certain.
+  [[nodiscard]] double sigma(double true_length) const;
 };
 
 /// Length of t that brings the point X of the first view closest to x in the second; empty without
@@ -40,7 +45,7 @@ struct RobustMean {
   std::size_t support = 0;
 };
 
-/// Weighted mean about the weighted median (Geman–McClure weights at 2σ). @pre not empty
+/// Weighted mean about the median (Geman–McClure weights at 2σ). @pre not empty
 [[nodiscard]] RobustMean robust_mean(std::vector<LengthVote> votes);
 
 }  // namespace oneac

@@ -64,6 +64,8 @@ class FrontEnd : public mrpt::system::COutputLogger {
   [[nodiscard]] Tilt tilt() const;
   /// The same with its uncertainty.
   [[nodiscard]] TiltBelief tilt_belief() const;
+  /// Correspondences [px] from the frame before to the last one processed, for viewers.
+  [[nodiscard]] const TrackedPair& correspondences() const { return correspondences_; }
   /// [m] height of the camera above the road in use; 0 when unknown, then nothing is metric.
   [[nodiscard]] double camera_height() const;
   /// Relative 1σ of the lengths of the map; infinite while nothing has measured them.
@@ -78,6 +80,7 @@ class FrontEnd : public mrpt::system::COutputLogger {
   std::unique_ptr<Odometry> odometry_;
   bool started_ = false;
   PinholeCamera previous_camera_;
+  TrackedPair correspondences_;
   std::string fed_label_;     ///< camera that feed() follows
   std::size_t fed_ = 0;       ///< its images
   double fed_time_ = -1e300;  ///< [s] of the last one

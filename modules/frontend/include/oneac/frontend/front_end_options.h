@@ -2,9 +2,9 @@
 
 #include "oneac/features/feature_options.h"
 #include "oneac/frontend/window_options.h"
+#include "oneac/initialisers/initialiser_options.h"
 #include "oneac/refine/two_view.h"
 #include "oneac/robust/ground_scale.h"
-#include "oneac/robust/one_ac_consensus.h"
 
 #include <cstddef>
 #include <string>
@@ -36,7 +36,9 @@ struct FrontEndOptions {
   double max_hold = 2.0;  ///< [s] a step without scale keeps the last metric speed for so long
   TiltOptions tilt;
   FeatureOptions features;
+  std::string estimator = "default";  ///< robust estimator of the initialiser
   ConsensusOptions consensus;
+  GcRansacOptions gc_ransac;
   GroundScaleOptions ground_scale;
   bool refine_enabled = true;  ///< two-view bundle adjustment after the consensus
   RefineOptions refine;
@@ -62,12 +64,14 @@ void describe(Visitor&& visit, TiltOptions& o) {
 template <class Visitor>
 void describe(Visitor&& visit, FrontEndOptions& o) {
   visit("initialiser", o.initialiser, "name", "method of the relative pose");
+  visit("estimator", o.estimator, "name", "consensus, gc_ransac, or default: the method's own");
   visit("camera_height", o.camera_height, "m", "above the road; 0: from the log if at least 0.5 m");
   visit("max_hold", o.max_hold, "s", "a step without scale keeps the last speed for so long");
   visit("refine_enabled", o.refine_enabled, "bool", "two-view bundle adjustment of each pair");
   visit.section("tilt", o.tilt);
   visit.section("features", o.features);
   visit.section("consensus", o.consensus);
+  visit.section("gc_ransac", o.gc_ransac);
   visit.section("ground_scale", o.ground_scale);
   visit.section("refine", o.refine);
   visit.section("window", o.window);

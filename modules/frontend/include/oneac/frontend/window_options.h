@@ -40,10 +40,11 @@ void describe(Visitor&& visit, WindowOptions& o) {
 struct ScaleOptions {
   /// "height": road and camera height; "gps": speeds given to FrontEnd; "none"
   std::string source = "height";
-  double map_drift = 0.005;       ///< [-] 1σ of the map's scale gained from keyframe to keyframe:
-                                  ///< a hundred landmarks whose depths are 5 % off
+  double map_drift = 0.01;        ///< [-] 1σ of the map's scale gained from keyframe to keyframe:
+                                  ///< a hundred landmarks whose depths are 10 % off
   double max_uncertainty = 0.06;  ///< [-] relative 1σ of the scale that counts as metric
-  double outlier_sigmas = 3.0;  ///< [σ] a measurement farther from the map's scale is not believed
+  double outlier_sigmas = 5.0;    ///< [σ] a measurement farther from the map's scale is not
+                                  ///< believed; roads are not planes, their errors have long tails
 
   void validate() const;
 };
