@@ -1,8 +1,10 @@
 #include "commands.h"
 #include "interrupt.h"
 #include "run_drive.h"
+#include "run_gui.h"
 #include "run_options.h"
 #include "run_outputs.h"
+#include "run_report.h"
 #include "run_summary.h"
 
 #include "oneac/base/atomic_file.h"
@@ -27,6 +29,7 @@ struct RunFlags {
   bool print_params = false;
   bool no_progress = false;
   bool quiet = false;
+  bool gui = false;
 };
 
 /// A flag that is also a key: it is kept as a setting and applied last.
@@ -38,22 +41,17 @@ void add_key(CLI::App* verb, const std::string& flag, const std::string& key, Ru
       help);
 }
 
-void fail_if_incomplete(const DriveRecord& record) {
-  if (!record.failure.empty()) throw InputError("stopped early", record.failure, "");
-  if (!record.source.damage.empty()) throw InputError("log", record.source.damage, "");
-  if (record.interrupted) throw std::runtime_error("interrupted; what was computed is written");
-}
-
 void write_all(const DriveRecord& record, RunOptions& options, double wall_seconds) {
   const std::filesystem::path folder(options.output);
   write_drive(record, folder);
   write_file_atomically(folder / "params.yaml", options.result_parameters());
   const RunEvaluation evaluation = evaluate_record(record, options);
-  write_file_atomically(folder / "summary.json",
-                        summary_json(record, evaluation, options, wall_seconds));
+  const std::string summary = summary_json(record, evaluation, options, wall_seconds);
+  write_file_atomically(folder / "summary.json", summary);
+  write_file_atomically(folder / "report.html", report_html(record, evaluation, options, summary));
   std::cout << summary_text(record, evaluation) << "written to " << options.output
             << ": trajectory_camera.kitti, trajectory_camera.tum, trajectory_vehicle.tum, "
-               "relative_poses.csv, timings.csv, summary.json, params.yaml"
+               "relative_poses.csv, timings.csv, summary.json, report.html, params.yaml"
             << (record.keyframes.empty()
                     ? "\n"
                     : ", keyframes.tum, graph.g2o, map.simplemap, points.ply\n");
@@ -73,13 +71,17 @@ void run(RunFlags& flags) {
   if (options.output.empty()) throw InputError("run", "no output folder given", "add -o DIR");
   require_writable_folder(options.output);
   catch_interrupts();
+  const auto gui = flags.gui ? std::make_unique<RunGui>() : nullptr;
   const auto start = std::chrono::steady_clock::now();
-  const DriveRecord record = run_drive(options);
+  RunObserver observer;
+  if (gui) observer = [&](const RunMoment& moment) { gui->show(moment); };
+  const DriveRecord record = run_drive(options, observer);
   const std::chrono::duration<double> wall = std::chrono::steady_clock::now() - start;
   if (!options.run.quiet) {
     for (const std::string& note : notes_about(record)) std::cerr << "oneac: " << note << '\n';
   }
   write_all(record, options, wall.count());
+  if (gui && !record.interrupted) gui->wait(record);
   fail_if_incomplete(record);
 }
 
@@ -105,6 +107,7 @@ void add_run(CLI::App& program) {
   add_key(verb, "--reference", "run.reference", *flags, "true poses, KITTI or TUM");
   add_key(verb, "--seed", "run.seed", *flags, "seed of methods that draw random numbers");
   add_key(verb, "--threads", "run.threads", *flags, "images prepared at once");
+  verb->add_flag("--gui", flags->gui, "show the drive in a window while it is computed");
   verb->add_flag("--no-progress", flags->no_progress, "no progress bar");
   verb->add_flag("--quiet", flags->quiet, "no progress bar, notes or warnings");
   verb->add_flag("--print-params", flags->print_params, "print all parameters as YAML and stop");

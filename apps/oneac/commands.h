@@ -8,7 +8,9 @@ namespace oneac::app {
 
 // Each adds one verb to the program. Its callback throws InputError (exit 2), OutputError or any
 // other std::exception (exit 1); it prints results on stdout, progress and warnings on stderr.
+void add_compare(CLI::App& program);
 void add_eval(CLI::App& program);
+void add_features(CLI::App& program);
 void add_import(CLI::App& program);
 void add_info(CLI::App& program);
 void add_run(CLI::App& program);

@@ -15,6 +15,8 @@ int main(int argc, char** argv) {
   program.require_subcommand(1);
   oneac::app::add_info(program);
   oneac::app::add_run(program);
+  oneac::app::add_compare(program);
+  oneac::app::add_features(program);
   oneac::app::add_import(program);
   oneac::app::add_simulate(program);
   oneac::app::add_eval(program);

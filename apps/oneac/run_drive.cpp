@@ -59,9 +59,11 @@ void remember_first(const CameraFrame& frame, const FrontEnd& front_end, DriveRe
 
 }  // namespace
 
-DriveRecord run_drive(const RunOptions& options) {
+DriveRecord run_drive(const RunOptions& options, const RunObserver& observer) {
   RawlogSource source(options.source.for_log(options.log));
-  FrontEnd front_end(options.front_end);
+  FrontEndOptions front_end_options = options.front_end;
+  front_end_options.seed = static_cast<std::size_t>(options.run.seed);
+  FrontEnd front_end(front_end_options);
   const VehicleReference sensors = read_ahead(options);
   for (const ImuSample& sample : sensors.imu) {
     if (sample.acceleration) front_end.add_acceleration(*sample.acceleration);
@@ -91,12 +93,16 @@ DriveRecord run_drive(const RunOptions& options) {
       const CameraFrame first =
           record.frames.empty() ? without_image(prepared.frame.frame) : CameraFrame{};
       speeds.feed_until(prepared.frame.frame.time_s, front_end);
+      const GreyImage image = observer ? prepared.frame.frame.image : GreyImage{};
       FrameResult result = front_end.process(std::move(prepared.frame));
       Settled settled = std::exchange(result.settled, {});
       record.frames.push_back(std::move(result));
       record.take(std::move(settled));
       record.decode_ms.push_back(prepared.decode_ms);
       if (record.frames.size() == 1) remember_first(first, front_end, record);
+      record.tilt = front_end.tilt();
+      record.tilts.push_back(record.tilt);
+      if (observer) observer({image, front_end.correspondences(), record});
       progress.update(source.progress(), record.frames.size());
       return !interrupted();
     };

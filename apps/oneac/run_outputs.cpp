@@ -1,9 +1,11 @@
 #include "run_outputs.h"
 
 #include "oneac/base/atomic_file.h"
+#include "oneac/base/error.h"
 #include "oneac/frontend/map_formats.h"
 
 #include <algorithm>
+#include <stdexcept>
 
 namespace oneac::app {
 
@@ -28,6 +30,12 @@ void write_drive(const DriveRecord& record, const std::filesystem::path& folder)
                         format_relative_poses(record.relative_poses()));
   if (!record.keyframes.empty()) write_map(record, folder);
   write_file_atomically(folder / "timings.csv", format_timings(record.timings()));
+}
+
+void fail_if_incomplete(const DriveRecord& record) {
+  if (!record.failure.empty()) throw InputError("stopped early", record.failure, "");
+  if (!record.source.damage.empty()) throw InputError("log", record.source.damage, "");
+  if (record.interrupted) throw std::runtime_error("interrupted; what was computed is written");
 }
 
 std::vector<std::string> notes_about(const DriveRecord& record) {

@@ -11,6 +11,11 @@ namespace oneac::app {
 /// Writes the trajectories, relative_poses.csv, timings.csv; each whole or not at all.
 void write_drive(const DriveRecord& record, const std::filesystem::path& folder);
 
+/// What the program ends with when the drive is not whole, after its files are written.
+/// @throws InputError for an image or a log that cannot be read on, std::runtime_error when
+/// interrupted
+void fail_if_incomplete(const DriveRecord& record);
+
 /// The lines that tell the user about missing images, height, scale: one each, for stderr.
 [[nodiscard]] std::vector<std::string> notes_about(const DriveRecord& record);
 

@@ -1,0 +1,119 @@
+#include "commands.h"
+#include "feature_pictures.h"
+#include "feature_statistics.h"
+#include "interrupt.h"
+#include "run_drive.h"
+#include "run_options.h"
+#include "run_outputs.h"
+
+#include "oneac/base/atomic_file.h"
+#include "oneac/base/error.h"
+#include "oneac/features/draw_tracks.h"
+
+#include <CLI/CLI.hpp>
+
+#include <cstdio>
+#include <filesystem>
+#include <iostream>
+#include <memory>
+
+namespace oneac::app {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct FeaturesFlags {
+  RunOptions options;
+  std::vector<std::string> parameter_files;
+  std::vector<std::string> settings;
+  std::size_t picture_every = 50;  // five seconds at the usual 10 Hz
+  bool no_progress = false;
+};
+
+void add_key(CLI::App* verb, const std::string& flag, const std::string& key, FeaturesFlags& flags,
+             const std::string& help) {
+  verb->add_option_function<std::string>(
+      flag,
+      [&flags, key](const std::string& value) { flags.settings.push_back(key + "=" + value); },
+      help);
+}
+
+fs::path picture_name(const fs::path& folder, std::size_t index) {
+  char name[32];
+  std::snprintf(name, sizeof name, "tracks_%06zu.png", index);
+  return folder / name;
+}
+
+void write_statistics(const FeatureStatistics& statistics, const FeaturesFlags& flags,
+                      const GreyImage& last_image) {
+  const fs::path folder(flags.options.output);
+  const std::string summary =
+      format_summary(statistics, flags.options.front_end.features.extractor);
+  write_file_atomically(folder / "pairs.csv", format_pairs(statistics));
+  write_file_atomically(folder / "track_lengths.csv", format_track_lengths(statistics));
+  write_file_atomically(folder / "regions.csv", format_regions(statistics));
+  write_file_atomically(folder / "summary.md", summary);
+  if (!last_image.empty()) draw_regions(last_image, statistics, folder / "regions.png");
+  std::cout << summary << "\nwritten to " << flags.options.output
+            << ": pairs.csv, track_lengths.csv, regions.csv, regions.png, summary.md, "
+               "tracks_*.png\n";
+}
+
+void run(FeaturesFlags& flags) {
+  RunOptions& options = flags.options;
+  apply_settings(flags.parameter_files, flags.settings, options);
+  if (flags.no_progress) options.run.progress = false;
+  options.validate();
+  if (flags.picture_every < 1) throw InputError("--picture-every 0", "it must be at least 1", "");
+  if (options.log.empty()) {
+    throw InputError("features", "no rawlog given", "oneac features LOG -o DIR");
+  }
+  if (options.output.empty()) throw InputError("features", "no output folder given", "add -o DIR");
+  require_writable_folder(options.output);
+  catch_interrupts();
+  FeatureStatistics statistics(options.front_end.consensus.threshold_px);
+  GreyImage last_image;
+  const DriveRecord record = run_drive(options, [&](const RunMoment& moment) {
+    statistics.add(moment);
+    last_image = moment.image;
+    const std::size_t pairs = statistics.pairs().size();
+    if (pairs == 0 || (pairs - 1) % flags.picture_every != 0) return;
+    draw_tracks(moment.image.view(), moment.pair,
+                picture_name(options.output, moment.record.frames.back().index));
+  });
+  statistics.finish();
+  if (!options.run.quiet) {
+    for (const std::string& note : notes_about(record)) std::cerr << "oneac: " << note << '\n';
+  }
+  write_statistics(statistics, flags, last_image);
+  fail_if_incomplete(record);
+}
+
+}  // namespace
+
+void add_features(CLI::App& program) {
+  auto* verb = program.add_subcommand(
+      "features", "Statistics and pictures of the affine correspondences of a rawlog");
+  auto flags = std::make_shared<FeaturesFlags>();
+  verb->add_option("LOG", flags->options.log, "rawlog: plain, .gz or zstd");
+  verb->add_option("-o,--output", flags->options.output, "folder for the results, made if missing");
+  verb->add_option("--params", flags->parameter_files, "YAML with parameters; may be repeated")
+      ->allow_extra_args(false);
+  verb->add_option("--set", flags->settings, "section.key=value, any key of params/default.yaml")
+      ->allow_extra_args(false);
+  verb->add_option("--picture-every", flags->picture_every, "draw the tracks of every K-th pair");
+  add_key(verb, "--features", "front_end.features.extractor", *flags,
+          "klt, vlfeat, vlfeat+align or sift");
+  add_key(verb, "--images-dir", "source.images_dir", *flags, "folder of the external images");
+  add_key(verb, "--camera", "source.camera", *flags, "left, right or a sensor label");
+  add_key(verb, "--calibration", "source.calibration", *flags,
+          "FILE[:SECTION] instead of the log's");
+  add_key(verb, "--first", "source.first", *flags, "first image to use, from 0");
+  add_key(verb, "--count", "source.count", *flags, "images to use at most; 0: all");
+  add_key(verb, "--every", "source.every", *flags, "use every K-th image");
+  add_key(verb, "--threads", "run.threads", *flags, "images prepared at once");
+  verb->add_flag("--no-progress", flags->no_progress, "no progress bar");
+  verb->callback([flags] { run(*flags); });
+}
+
+}  // namespace oneac::app

@@ -1,0 +1,187 @@
+#include "feature_statistics.h"
+
+#include "oneac/evaluation/statistics.h"
+#include "oneac/geometry/essential.h"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+
+namespace oneac::app {
+namespace {
+
+/// C locale, fixed decimals.
+std::string fixed(double value, int decimals) {
+  char text[64];
+  const auto end =
+      std::to_chars(text, text + sizeof text, value, std::chars_format::fixed, decimals).ptr;
+  return {text, end};
+}
+
+double median(std::vector<double> values) {
+  return values.empty() ? 0.0 : percentile(std::move(values), 50.0);
+}
+
+int cell(double u, int size, int cells) {
+  return std::clamp(static_cast<int>(u * cells / size), 0, cells - 1);
+}
+
+template <class Field>
+std::vector<double> values_of(const FeatureStatistics& statistics, Field&& field) {
+  std::vector<double> values;
+  for (const PairFeatures& pair : statistics.pairs()) {
+    values.push_back(static_cast<double>(field(pair)));
+  }
+  return values;
+}
+
+std::string row_of(const char* name, const std::vector<double>& values, int decimals) {
+  const std::optional<Statistics> s = statistics_of(values);
+  if (!s) return "";
+  return std::string("| ") + name + " | " + fixed(s->median, decimals) + " | " +
+         fixed(s->mean, decimals) + " | " +
+         fixed(*std::min_element(values.begin(), values.end()), decimals) + " | " +
+         fixed(s->max, decimals) + " |\n";
+}
+
+constexpr const char* kTableHead =
+    "| per pair | median | mean | least | most |\n|---|--:|--:|--:|--:|\n";
+
+}  // namespace
+
+void FeatureStatistics::add(const RunMoment& moment) {
+  const FrameResult& frame = moment.record.frames.back();
+  if (!frame.step) return;
+  PairFeatures features;
+  features.index1 = frame.step->index1;
+  features.index2 = frame.step->index2;
+  features.acs = moment.pair.acs.size();
+  features.standing = moment.pair.standing;
+  features.decode_ms = moment.record.decode_ms.back();
+  features.features_ms = frame.step->features_ms;
+  std::vector<double> motions;
+  for (const AffineCorrespondence& ac : moment.pair.acs) motions.push_back((ac.x2 - ac.x1).norm());
+  features.motion_px = median(std::move(motions));
+  follow(moment.pair, features);
+  const std::vector<double> residuals = judge(moment, *frame.step);
+  if (!residuals.empty()) features.affine_residual = median(residuals);
+  pairs_.push_back(features);
+}
+
+void FeatureStatistics::follow(const TrackedPair& pair, PairFeatures& features) {
+  std::unordered_map<std::uint64_t, std::size_t> now;
+  for (const std::uint64_t track : pair.tracks) {
+    const auto known = alive_.find(track);
+    if (known != alive_.end()) ++features.followed;
+    now[track] = known != alive_.end() ? known->second + 1 : 2;  // a pair is two images
+  }
+  for (const auto& [track, images] : alive_) {
+    if (now.count(track) == 0) ++lengths_[images];
+  }
+  alive_ = std::move(now);
+}
+
+void FeatureStatistics::finish() {
+  for (const auto& [track, images] : alive_) ++lengths_[images];
+  alive_.clear();
+}
+
+std::vector<double> FeatureStatistics::judge(const RunMoment& moment, const StepResult& step) {
+  std::vector<double> residuals;
+  if (step.status != StepStatus::kOk || !(step.pose.t.norm() > 0.0)) return residuals;
+  const PinholeCamera& camera = moment.record.camera;
+  const Eigen::Matrix3d E = essential_matrix(step.pose);
+  const double bound = threshold_px_ / camera.focal_px();
+  for (const AffineCorrespondence& ac_px : moment.pair.acs) {
+    const AffineCorrespondence ac = normalise(ac_px, camera, camera);
+    if (!(std::abs(sampson_distance(E, ac.x1, ac.x2)) <= bound)) continue;
+    const double slope = (E.transpose() * ac.x2.homogeneous()).head<2>().norm();
+    if (!(slope > 0.0)) continue;
+    const double residual = affine_epipolar_residual(E, ac).norm() / slope;
+    if (!std::isfinite(residual)) continue;
+    residuals.push_back(residual);
+    const int row = cell(ac_px.x2.y(), camera.height, kRows);
+    const int column = cell(ac_px.x2.x(), camera.width, kColumns);
+    residuals_[static_cast<std::size_t>(row * kColumns + column)].push_back(residual);
+  }
+  return residuals;
+}
+
+const std::vector<double>& FeatureStatistics::residuals(int row, int column) const {
+  return residuals_.at(static_cast<std::size_t>(row * kColumns + column));
+}
+
+std::optional<double> FeatureStatistics::median_residual() const {
+  std::vector<double> all;
+  for (const auto& region : residuals_) all.insert(all.end(), region.begin(), region.end());
+  if (all.empty()) return std::nullopt;
+  return median(std::move(all));
+}
+
+std::string format_pairs(const FeatureStatistics& statistics) {
+  std::string text =
+      "index1,index2,acs,followed,standing,motion_px,affine_residual,ms_decode,ms_features\n";
+  for (const PairFeatures& p : statistics.pairs()) {
+    text += std::to_string(p.index1) + "," + std::to_string(p.index2) + "," +
+            std::to_string(p.acs) + "," + std::to_string(p.followed) + "," +
+            (p.standing ? "1" : "0") + "," + fixed(p.motion_px, 3) + "," +
+            (p.affine_residual ? fixed(*p.affine_residual, 5) : "") + "," + fixed(p.decode_ms, 3) +
+            "," + fixed(p.features_ms, 3) + "\n";
+  }
+  return text;
+}
+
+std::string format_track_lengths(const FeatureStatistics& statistics) {
+  std::string text = "images,tracks\n";
+  for (const auto& [images, tracks] : statistics.track_lengths()) {
+    text += std::to_string(images) + "," + std::to_string(tracks) + "\n";
+  }
+  return text;
+}
+
+std::string format_regions(const FeatureStatistics& statistics) {
+  std::string text = "row,column,count,median_affine_residual\n";
+  for (int row = 0; row < FeatureStatistics::kRows; ++row) {
+    for (int column = 0; column < FeatureStatistics::kColumns; ++column) {
+      const std::vector<double>& residuals = statistics.residuals(row, column);
+      text += std::to_string(row) + "," + std::to_string(column) + "," +
+              std::to_string(residuals.size()) + "," +
+              (residuals.empty() ? "" : fixed(median(residuals), 5)) + "\n";
+    }
+  }
+  return text;
+}
+
+std::string format_summary(const FeatureStatistics& statistics, const std::string& extractor) {
+  std::string text = "# Affine correspondences of a drive\n\nExtractor `" + extractor + "`, " +
+                     std::to_string(statistics.pairs().size()) + " pairs of images.\n\n";
+  text += kTableHead;
+  text += row_of("correspondences", values_of(statistics, [](const auto& p) { return p.acs; }), 0);
+  text += row_of("on followed tracks",
+                 values_of(statistics, [](const auto& p) { return p.followed; }), 0);
+  text +=
+      row_of("motion [px]", values_of(statistics, [](const auto& p) { return p.motion_px; }), 1);
+  std::size_t tracks = 0, images = 0;
+  for (const auto& [length, count] : statistics.track_lengths()) {
+    tracks += count;
+    images += length * count;
+  }
+  if (tracks > 0) {
+    text += "\n" + std::to_string(tracks) + " tracks, seen in " +
+            fixed(static_cast<double>(images) / static_cast<double>(tracks), 2) +
+            " images on average, in " + std::to_string(statistics.track_lengths().rbegin()->first) +
+            " at most.\n";
+  }
+  if (const auto residual = statistics.median_residual()) {
+    text += "\nMedian affine residual " + fixed(*residual, 4) +
+            " of the correspondences whose points obey the pair's pose; by region of the image in "
+            "`regions.csv` and `regions.png`.\n";
+  }
+  text += "\n## Time\n\n" + std::string(kTableHead);
+  text +=
+      row_of("decode [ms]", values_of(statistics, [](const auto& p) { return p.decode_ms; }), 2);
+  return text + row_of("features [ms]",
+                       values_of(statistics, [](const auto& p) { return p.features_ms; }), 2);
+}
+
+}  // namespace oneac::app

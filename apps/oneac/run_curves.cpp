@@ -1,0 +1,226 @@
+#include "run_curves.h"
+
+#include "reference_track.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace oneac::app {
+namespace {
+
+constexpr double kDegree = 3.14159265358979323846 / 180.0;
+constexpr double kNone = std::numeric_limits<double>::quiet_NaN();  // leaves a gap
+// [m] over which the scale is compared: far more than the centimetres that a reference is good to.
+constexpr double kScaleStretch = 20.0;
+constexpr double kStanding = 0.5;  // [m/s] below which the course of a GPS is noise
+
+bool has_scale(const DriveRecord& record) {
+  return record.camera_height > 0.0;
+}
+
+/// Seconds since the first frame.
+double seconds(const DriveRecord& record, double time_s) {
+  return time_s - record.frames.front().time_s;
+}
+
+double yaw_of(const Eigen::Matrix3d& R) {
+  return std::atan2(R(1, 0), R(0, 0));
+}
+
+/// One value per step over the time of its second image.
+template <class Value>
+PlotSeries per_step(const DriveRecord& record, const std::string& label, Value&& value) {
+  PlotSeries series{label, {}, {}, false};
+  for (std::size_t i = 1; i < record.frames.size(); ++i) {
+    series.x.push_back(seconds(record, record.frames[i].time_s));
+    const bool has_step = record.frames[i].step.has_value();
+    series.y.push_back(has_step ? value(i, *record.frames[i].step) : kNone);
+  }
+  return series;
+}
+
+/// One value per step between frames that both have a reference pose.
+template <class Value>
+void add_reference(const DriveRecord& record, const ReferenceTrack& track, SeriesPlot& plot,
+                   Value&& value) {
+  if (track.poses.empty()) return;
+  plot.series.push_back(per_step(record, "reference", [&](std::size_t i, const StepResult& step) {
+    const auto& before = track.poses[i - 1];
+    const auto& now = track.poses[i];
+    return before && now ? value(*before, *now) / (step.time2 - step.time1) : kNone;
+  }));
+}
+
+bool is_during(const DriveRecord& record, double time_s) {
+  return time_s >= record.frames.front().time_s && time_s <= record.frames.back().time_s;
+}
+
+SeriesPlot speed_plot(const DriveRecord& record, const ReferenceTrack& track) {
+  SeriesPlot plot{"Speed", "time [s]", has_scale(record) ? "m/s" : "units/s", {}, true};
+  plot.series.push_back(per_step(record, "estimate", [](std::size_t, const StepResult& step) {
+    return step.length / (step.time2 - step.time1);
+  }));
+  if (!has_scale(record)) return plot;  // a reference in metres would squeeze it
+  add_reference(record, track, plot, [](const Eigen::Isometry3d& a, const Eigen::Isometry3d& b) {
+    return (b.translation() - a.translation()).norm();
+  });
+  PlotSeries gps{"GPS", {}, {}, true};
+  for (const GpsFix& fix : record.source.reference.gps) {
+    if (!fix.speed || !is_during(record, fix.time_s)) continue;
+    gps.x.push_back(seconds(record, fix.time_s));
+    gps.y.push_back(*fix.speed);
+  }
+  if (!gps.x.empty()) plot.series.push_back(gps);
+  return plot;
+}
+
+/// Turn between fixes over the time between them, where both drive.
+PlotSeries course_rate(const DriveRecord& record) {
+  PlotSeries series{"GPS course", {}, {}, true};
+  const GpsFix* before = nullptr;
+  for (const GpsFix& fix : record.source.reference.gps) {
+    const bool drives = fix.course && fix.speed && *fix.speed >= kStanding;
+    if (drives && before != nullptr && fix.time_s > before->time_s) {
+      const double middle = 0.5 * (before->time_s + fix.time_s);
+      const double turn = -std::remainder(*fix.course - *before->course, 2.0 * M_PI);
+      if (is_during(record, middle)) {
+        series.x.push_back(seconds(record, middle));
+        series.y.push_back(turn / (fix.time_s - before->time_s) / kDegree);
+      }
+    }
+    before = drives ? &fix : nullptr;
+  }
+  return series;
+}
+
+SeriesPlot yaw_rate_plot(const DriveRecord& record, const ReferenceTrack& track) {
+  SeriesPlot plot{"Yaw rate (left positive)", "time [s]", "deg/s", {}, false};
+  const std::vector<Eigen::Isometry3d> poses = record.vehicle_trajectory().poses;
+  plot.series.push_back(per_step(record, "estimate", [&](std::size_t i, const StepResult& step) {
+    return yaw_of(poses[i - 1].linear().transpose() * poses[i].linear()) /
+           (step.time2 - step.time1) / kDegree;
+  }));
+  const Eigen::Matrix3d R = record.mount().linear();
+  add_reference(record, track, plot, [&](const Eigen::Isometry3d& a, const Eigen::Isometry3d& b) {
+    return yaw_of(R * a.linear().transpose() * b.linear() * R.transpose()) / kDegree;
+  });
+  PlotSeries gps = course_rate(record);
+  if (!gps.x.empty()) plot.series.push_back(std::move(gps));
+  return plot;
+}
+
+/// Path of the estimate over that of the reference − 1 over the last kScaleStretch metres.
+PlotSeries scale_error(const DriveRecord& record, const ReferenceTrack& track) {
+  PlotSeries series{"error over the last 20 m", {}, {}, false};
+  std::vector<double> estimated, truth;
+  std::size_t begin = 0;
+  const auto restart = [&] { estimated = truth = {0.0}, begin = 0; };
+  restart();
+  for (std::size_t i = 1; i < record.frames.size(); ++i) {
+    if (!track.poses[i - 1] || !track.poses[i]) {
+      restart();
+      continue;
+    }
+    const auto step = [&](const Eigen::Isometry3d& a, const Eigen::Isometry3d& b) {
+      return (b.translation() - a.translation()).norm();
+    };
+    estimated.push_back(estimated.back() +
+                        step(record.frames[i - 1].T_first_cam, record.frames[i].T_first_cam));
+    truth.push_back(truth.back() + step(*track.poses[i - 1], *track.poses[i]));
+    while (truth.back() - truth[begin + 1] >= kScaleStretch) ++begin;
+    const double length = truth.back() - truth[begin];
+    if (length < kScaleStretch) continue;
+    series.x.push_back(seconds(record, record.frames[i].time_s));
+    series.y.push_back(100.0 * ((estimated.back() - estimated[begin]) / length - 1.0));
+  }
+  return series;
+}
+
+SeriesPlot scale_plot(const DriveRecord& record, const ReferenceTrack& track) {
+  SeriesPlot plot{"Scale", "time [s]", "%", {}, false};
+  plot.series.push_back(
+      per_step(record, "1σ of a metric length", [](std::size_t, const StepResult& step) {
+        return step.metric && step.length_sigma > 0.0 ? 100.0 * step.length_sigma : kNone;
+      }));
+  if (!track.poses.empty() && has_scale(record)) {
+    plot.series.push_back(scale_error(record, track));
+  }
+  return plot;
+}
+
+SeriesPlot tilt_plot(const DriveRecord& record) {
+  SeriesPlot plot{"Tilt of the camera, as believed", "time [s]", "deg", {}, false};
+  const auto add = [&](const char* label, double Tilt::*angle) {
+    PlotSeries series{label, {}, {}, false};
+    for (std::size_t i = 0; i < record.tilts.size(); ++i) {
+      series.x.push_back(seconds(record, record.frames[i].time_s));
+      series.y.push_back(record.tilts[i].*angle / kDegree);
+    }
+    plot.series.push_back(std::move(series));
+  };
+  add("axis above the horizon", &Tilt::pitch_up);
+  add("leaning right", &Tilt::roll_right);
+  return plot;
+}
+
+SeriesPlot counts_plot(const DriveRecord& record) {
+  SeriesPlot plot{"Affine correspondences", "time [s]", "count", {}, true};
+  const auto add = [&](const char* label, std::size_t StepResult::*field) {
+    plot.series.push_back(per_step(record, label, [=](std::size_t, const StepResult& step) {
+      return static_cast<double>(step.*field);
+    }));
+  };
+  add("inliers", &StepResult::inliers);
+  add("all", &StepResult::acs);
+  add("on the road", &StepResult::ground_acs);
+  add("landmarks", &StepResult::landmarks);
+  return plot;
+}
+
+/// Errors of the pairs over the time of their second image.
+std::vector<SeriesPlot> error_plots(const DriveRecord& record, const RunEvaluation& evaluation) {
+  if (!evaluation.against_poses || evaluation.against_poses->pairs.empty()) return {};
+  SeriesPlot rotation{"Rotation error of a pair", "time [s]", "deg", {{"estimate", {}, {}}}, true};
+  SeriesPlot direction{
+      "Direction error of a pair", "time [s]", "deg", {{"estimate", {}, {}}}, true};
+  const auto& pairs = evaluation.against_poses->pairs;
+  std::size_t i = 0;
+  for (const FrameResult& frame : record.frames) {  // pairs are in the order of the frames
+    if (!frame.step || i == pairs.size() || pairs[i].index2 != frame.step->index2) continue;
+    for (SeriesPlot* plot : {&rotation, &direction}) {
+      plot->series[0].x.push_back(seconds(record, frame.time_s));
+    }
+    rotation.series[0].y.push_back(pairs[i].rotation / kDegree);
+    direction.series[0].y.push_back(pairs[i].direction ? *pairs[i].direction / kDegree : kNone);
+    ++i;
+  }
+  return {rotation, direction};
+}
+
+}  // namespace
+
+std::vector<SeriesPlot> plots_of(const DriveRecord& record, const RunEvaluation& evaluation) {
+  if (record.frames.empty()) return {};
+  const ReferenceTrack track = reference_track(record, evaluation);
+  std::vector<SeriesPlot> plots = {speed_plot(record, track), yaw_rate_plot(record, track),
+                                   scale_plot(record, track), tilt_plot(record)};
+  plots.push_back(counts_plot(record));
+  for (SeriesPlot& plot : error_plots(record, evaluation)) plots.push_back(std::move(plot));
+  return plots;
+}
+
+SeriesPlot timing_plot_of(const DriveRecord& record) {
+  SeriesPlot plot{"CPU time of the stages", "time [s]", "ms", {}, true};
+  if (record.frames.empty()) return plot;
+  const auto add = [&](const char* label, auto&& value) {
+    plot.series.push_back(per_step(record, label, value));
+  };
+  add("decode", [&](std::size_t i, const StepResult&) { return record.decode_ms[i]; });
+  add("features", [](std::size_t, const StepResult& step) { return step.features_ms; });
+  add("estimate", [](std::size_t, const StepResult& step) { return step.estimate_ms; });
+  add("refine", [](std::size_t, const StepResult& step) { return step.refine_ms; });
+  return plot;
+}
+
+}  // namespace oneac::app

@@ -1,0 +1,122 @@
+#include "reference_track.h"
+#include "run_curves.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace oneac::app {
+namespace {
+
+using Points = std::vector<Eigen::Vector2d>;
+
+Eigen::Vector2d mean_of(const Points& points) {
+  Eigen::Vector2d sum = Eigen::Vector2d::Zero();
+  for (const Eigen::Vector2d& point : points) sum += point;
+  return sum / static_cast<double>(std::max<std::size_t>(points.size(), 1));
+}
+
+/// A point in the first camera's frame, seen from above: right of the vehicle, ahead of it.
+Eigen::Vector2d from_above(const Eigen::Matrix3d& R_vehicle_cam, const Eigen::Vector3d& point) {
+  const Eigen::Vector3d p = R_vehicle_cam * point;
+  return {-p.y(), p.x()};
+}
+
+/// What is laid over the way: points of the reference, and the way's at the same moments.
+struct Overlay {
+  PlanPath path;
+  Points estimate;
+};
+
+Overlay poses_overlay(const DriveRecord& record, const RunEvaluation& evaluation,
+                      const Points& way) {
+  Overlay overlay{{"reference", {}, false}, {}};
+  const ReferenceTrack track = reference_track(record, evaluation);
+  const Eigen::Matrix3d R = record.mount().linear();
+  std::optional<Eigen::Isometry3d> first;
+  for (std::size_t i = 0; i < track.poses.size(); ++i) {
+    if (!track.poses[i]) continue;
+    if (!first) first = track.poses[i];
+    overlay.path.points.push_back(
+        from_above(R, (first->inverse() * *track.poses[i]).translation()));
+    overlay.estimate.push_back(way[i]);
+  }
+  return overlay;
+}
+
+Overlay gps_overlay(const DriveRecord& record, const Points& way) {
+  Overlay overlay{{"GPS", {}, true}, {}};
+  const auto& frames = record.frames;
+  for (const GpsFix& fix : record.source.reference.gps) {
+    if (!fix.position_enu) continue;
+    const auto after =
+        std::upper_bound(frames.begin(), frames.end(), fix.time_s,
+                         [](double time, const FrameResult& f) { return time < f.time_s; });
+    if (after == frames.begin() || after == frames.end()) continue;
+    const auto i = static_cast<std::size_t>(after - frames.begin());
+    const double share =
+        (fix.time_s - frames[i - 1].time_s) / (frames[i].time_s - frames[i - 1].time_s);
+    overlay.path.points.push_back(fix.position_enu->head<2>());
+    overlay.estimate.push_back(way[i - 1] + share * (way[i] - way[i - 1]));
+  }
+  return overlay;
+}
+
+void scale(Points& points, double factor) {
+  for (Eigen::Vector2d& point : points) point *= factor;
+}
+
+}  // namespace
+
+PlaneAlignment align_in_plane(const Points& x, const Points& y, bool scaled) {
+  const Eigen::Vector2d centre_x = mean_of(x), centre_y = mean_of(y);
+  double dot = 0.0, cross = 0.0, spread = 0.0;
+  for (std::size_t i = 0; i < x.size(); ++i) {
+    const Eigen::Vector2d a = x[i] - centre_x, b = y[i] - centre_y;
+    dot += a.dot(b);
+    cross += a.x() * b.y() - a.y() * b.x();
+    spread += a.squaredNorm();
+  }
+  PlaneAlignment result;
+  const double size = std::hypot(dot, cross);
+  if (size > 0.0) {
+    result.R << dot / size, -cross / size, cross / size, dot / size;
+    if (scaled) result.scale = size / spread;
+  }
+  result.t = centre_y - result.scale * (result.R * centre_x);
+  return result;
+}
+
+PlanView plan_of(const DriveRecord& record, const RunEvaluation& evaluation) {
+  PlanView plan{"Seen from above, first heading up", "m", {}};
+  const Eigen::Matrix3d R = record.mount().linear();
+  PlanPath way{"estimate", {}, false}, keyframes{"keyframes", {}, true};
+  for (const FrameResult& frame : record.frames) {
+    way.points.push_back(from_above(R, frame.T_first_cam.translation()));
+  }
+  for (const Keyframe& keyframe : record.keyframes) {
+    keyframes.points.push_back(from_above(R, keyframe.T_first_cam.translation()));
+  }
+  std::vector<Overlay> overlays = {poses_overlay(record, evaluation, way.points),
+                                   gps_overlay(record, way.points)};
+  const auto used = std::find_if(overlays.begin(), overlays.end(),
+                                 [](const Overlay& o) { return o.path.points.size() > 1; });
+  double factor = 1.0;
+  if (!(record.camera_height > 0.0) && used == overlays.end()) plan.unit = "units";
+  if (!(record.camera_height > 0.0) && used != overlays.end()) {
+    factor = align_in_plane(used->estimate, used->path.points, true).scale;
+  }
+  scale(way.points, factor);
+  scale(keyframes.points, factor);
+  plan.paths = {way};
+  for (Overlay& overlay : overlays) {
+    if (overlay.path.points.empty()) continue;
+    scale(overlay.estimate, factor);
+    const PlaneAlignment onto = align_in_plane(overlay.path.points, overlay.estimate, false);
+    for (Eigen::Vector2d& point : overlay.path.points) point = onto * point;
+    plan.paths.push_back(overlay.path);
+  }
+  if (!keyframes.points.empty()) plan.paths.push_back(keyframes);
+  return plan;
+}
+
+}  // namespace oneac::app

@@ -1,0 +1,155 @@
+#include "run_report.h"
+
+#include "run_curves.h"
+#include "run_outputs.h"
+#include "worst_frames.h"
+
+#include "oneac/base/version.h"
+#include "oneac/evaluation/html_page.h"
+
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+
+namespace oneac::app {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr std::size_t kPictures = 6;
+constexpr int kDigits = 5;  // significant ones in the tables; summary.json has them all
+
+/// C locale.
+std::string number_text(double value, int digits) {
+  char text[40];
+  const auto end =
+      std::to_chars(text, text + sizeof text, value, std::chars_format::general, digits).ptr;
+  return {text, end};
+}
+
+std::string value_text(const Json& value) {
+  if (value.is_string()) return value.get<std::string>();
+  if (value.is_number_float()) return number_text(value.get<double>(), kDigits);
+  if (value.is_null()) return "–";
+  if (value.is_boolean()) return value.get<bool>() ? "yes" : "no";
+  return value.dump();
+}
+
+std::string words(std::string key) {
+  std::replace(key.begin(), key.end(), '_', ' ');
+  return key;
+}
+
+/// The values below, named by their way there.
+void flatten(const Json& json, const std::string& prefix, HtmlPage::Rows& rows) {
+  for (const auto& [key, value] : json.items()) {
+    const std::string name = prefix.empty() ? words(key) : prefix + " · " + words(key);
+    if (value.is_object()) {
+      flatten(value, name, rows);
+    } else if (!value.is_array()) {
+      rows.emplace_back(name, value_text(value));
+    }
+  }
+}
+
+void add_table(HtmlPage& page, const std::string& caption, const Json& json) {
+  HtmlPage::Rows rows;
+  flatten(json, "", rows);
+  if (!rows.empty()) page.table(caption, rows);
+}
+
+/// Scalars first, then a table per object; timing has its own section.
+void add_tables(HtmlPage& page, const Json& summary) {
+  Json scalars = Json::object();
+  for (const auto& [key, value] : summary.items()) {
+    if (!value.is_structured() && value != "") scalars[key] = value;
+  }
+  page.begin_group();
+  add_table(page, "run", scalars);
+  for (const auto& [key, value] : summary.items()) {
+    if (value.is_object() && key != "timing") add_table(page, words(key), value);
+  }
+  page.end_group();
+}
+
+HtmlPage::Rows tiles_of(const DriveRecord& record, const RunEvaluation& evaluation,
+                        const Json& summary) {
+  HtmlPage::Rows tiles;
+  const bool scaled = record.camera_height > 0.0;
+  tiles.emplace_back("frames", std::to_string(record.frames.size()));
+  tiles.emplace_back(scaled ? "path [m]" : "path [units]", value_text(summary["path_length"]));
+  tiles.emplace_back("steps in metres", value_text(summary["metric"]));
+  if (!evaluation.against_poses) return tiles;
+  const auto& trajectory = evaluation.against_poses->trajectory;
+  if (trajectory) {
+    tiles.emplace_back("APE, RMS [m]", number_text(trajectory->ape.rmse, 3));
+    if (trajectory->subsequences) {
+      tiles.emplace_back("t_rel [%]",
+                         number_text(100.0 * trajectory->subsequences->translation, 3));
+      tiles.emplace_back("r_rel [deg/100 m]",
+                         number_text(100.0 * trajectory->subsequences->rotation * 180.0 / M_PI, 3));
+    }
+    if (trajectory->scale_error && scaled) {
+      tiles.emplace_back("scale error [%]", number_text(100.0 * *trajectory->scale_error, 3));
+    }
+  }
+  return tiles;
+}
+
+void add_warnings(HtmlPage& page, const DriveRecord& record) {
+  if (record.interrupted) page.warning("The run was interrupted; this is what it had by then.");
+  if (!record.failure.empty()) page.warning("Stopped early: " + record.failure);
+  if (!record.source.damage.empty()) page.warning("The log is damaged: " + record.source.damage);
+  for (const std::string& note : notes_about(record)) page.warning(note);
+}
+
+void add_curves(HtmlPage& page, const DriveRecord& record, const RunEvaluation& evaluation) {
+  page.heading("The drive");
+  std::vector<std::string> svgs = {plan_svg(plan_of(record, evaluation))};
+  page.figures(svgs);
+  svgs.clear();
+  for (const SeriesPlot& plot : plots_of(record, evaluation)) svgs.push_back(plot_svg(plot));
+  page.figures(svgs);
+}
+
+void add_pictures(HtmlPage& page, const DriveRecord& record, const RunEvaluation& evaluation,
+                  const RunOptions& options) {
+  const std::vector<WorstFrame> frames = worst_frames(record, evaluation, kPictures);
+  const std::vector<FramePicture> pictures = draw_frames(record, options, frames);
+  if (pictures.empty()) return;
+  page.heading("Worst frames");
+  page.paragraph(
+      "Blue: correspondences that obey the pose of the step; orange: the others. A line runs from "
+      "where a point was to where it is, its frame is what the affinity makes of a square. The "
+      "pairs are extracted once more, without what a tracker remembered in the drive.");
+  for (const FramePicture& picture : pictures) {
+    const StepResult& step = *record.frames[picture.frame.frame].step;
+    page.picture("images " + std::to_string(step.index1) + " and " + std::to_string(step.index2) +
+                     ": " + picture.frame.reason,
+                 snapshot_svg(picture.snapshot));
+  }
+}
+
+}  // namespace
+
+std::string report_html(const DriveRecord& record, const RunEvaluation& evaluation,
+                        const RunOptions& options, const std::string& summary_text) {
+  const Json summary = Json::parse(summary_text);
+  HtmlPage page("oneac run", options.log + " · oneac " + version());
+  add_warnings(page, record);
+  page.tiles(tiles_of(record, evaluation, summary));
+  add_curves(page, record, evaluation);
+  add_pictures(page, record, evaluation, options);
+  page.heading("Summary");
+  add_tables(page, summary);
+  page.heading(kTimingHeading);
+  page.figures({plot_svg(timing_plot_of(record))});
+  page.begin_group();
+  add_table(page, "of the stages, and of the whole", summary["timing"]);
+  page.end_group();
+  return page.text();
+}
+
+}  // namespace oneac::app

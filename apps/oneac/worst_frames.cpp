@@ -1,0 +1,195 @@
+#include "worst_frames.h"
+
+#include "oneac/base/error.h"
+#include "oneac/features/ac_tracker.h"
+#include "oneac/geometry/essential.h"
+
+#include <opencv2/core.hpp>
+#include <opencv2/imgcodecs.hpp>
+#include <opencv2/imgproc.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <cstdio>
+#include <map>
+#include <set>
+
+namespace oneac::app {
+namespace {
+
+constexpr double kWidestPicture = 960.0;  // [px] as wide as the page shows it
+constexpr std::size_t kApart = 5;         // frames: half a second at the usual 10 Hz
+constexpr int kJpegQuality = 80;          // no visible loss at this size
+constexpr double kDegree = 3.14159265358979323846 / 180.0;
+
+/// Takes the first `share` of the candidates that are not chosen yet, the worst first.
+class Chooser {
+ public:
+  explicit Chooser(std::size_t count) : left_(count) {}
+
+  /// @param worse  strict weak order of frames; ties go to the earlier frame
+  template <class Worse, class Reason>
+  void take(std::vector<std::size_t> frames, std::size_t share, Worse&& worse, Reason&& reason) {
+    std::stable_sort(frames.begin(), frames.end(), worse);
+    for (const std::size_t frame : frames) {
+      if (left_ == 0 || share == 0) return;
+      if (is_near(frame)) continue;
+      taken_.insert({frame, reason(frame)});
+      --left_;
+      --share;
+    }
+  }
+  [[nodiscard]] std::vector<WorstFrame> result() const {
+    std::vector<WorstFrame> frames;
+    for (const auto& [frame, reason] : taken_) frames.push_back({frame, reason});
+    return frames;
+  }
+
+ private:
+  /// Neighbours look alike and show the same trouble.
+  [[nodiscard]] bool is_near(std::size_t frame) const {
+    const auto next = taken_.lower_bound(frame < kApart ? 0 : frame - kApart + 1);
+    return next != taken_.end() && next->first < frame + kApart;
+  }
+
+  std::size_t left_;
+  std::map<std::size_t, std::string> taken_;
+};
+
+std::string inliers_text(const StepResult& step) {
+  return std::to_string(step.inliers) + " inliers of " + std::to_string(step.acs);
+}
+
+/// In units of what counts as a wrong basin.
+double badness(const PairError& error) {
+  return std::max(error.rotation / kBadRotation, error.direction.value_or(0.0) / kBadDirection);
+}
+
+std::string error_text(const PairError& error) {
+  char text[96];
+  int length =
+      std::snprintf(text, sizeof text, "rotation off by %.3f deg", error.rotation / kDegree);
+  if (error.direction) {
+    length += std::snprintf(text + length, sizeof text - static_cast<std::size_t>(length),
+                            ", direction by %.2f deg", *error.direction / kDegree);
+  }
+  return {text, static_cast<std::size_t>(length)};
+}
+
+/// JPEG no wider than the page shows it.
+std::string jpeg_of(const ImageView& image) {
+  const cv::Mat grey(image.height, image.width, CV_8UC1, const_cast<std::uint8_t*>(image.data),
+                     static_cast<std::size_t>(image.stride));
+  cv::Mat small = grey;
+  const double factor = kWidestPicture / image.width;
+  if (factor < 1.0) cv::resize(grey, small, {}, factor, factor, cv::INTER_AREA);
+  std::vector<std::uint8_t> bytes;
+  cv::imencode(".jpg", small, bytes, {cv::IMWRITE_JPEG_QUALITY, kJpegQuality});
+  return {bytes.begin(), bytes.end()};
+}
+
+/// Distance from the motion in normalised units: of the epipolar line, or, of a camera that did not
+/// move, of the point that the rotation predicts.
+double distance(const RelativePose& pose, const AffineCorrespondence& ac) {
+  if (pose.t.norm() > 0.0) return std::abs(sampson_distance(essential_matrix(pose), ac.x1, ac.x2));
+  const Eigen::Vector3d ray = pose.R * ac.x1.homogeneous();
+  return (ray.hnormalized() - ac.x2).norm();
+}
+
+MotionHint hint_of(const DriveRecord& record, const StepResult& step, const PinholeCamera& camera) {
+  MotionHint hint;
+  hint.camera = camera;
+  hint.R_level_cam = leveling_rotation(record.tilt);
+  hint.T_2_1 = step.pose;
+  hint.scaled = step.metric && record.camera_height > 0.0;
+  if (hint.scaled) hint.T_2_1->t /= record.camera_height;
+  return hint;
+}
+
+Snapshot snapshot_of(const DriveRecord& record, const RunOptions& options, const StepResult& step,
+                     const CameraFrame& first, const CameraFrame& second) {
+  const auto tracker = make_tracker(options.front_end.features);
+  const MotionHint hint = hint_of(record, step, first.camera);
+  (void)tracker->advance(tracker->prepare(first.image.view()), hint);
+  const TrackedPair pair = tracker->advance(tracker->prepare(second.image.view()), hint);
+  Snapshot snapshot;
+  snapshot.width = second.image.width();
+  snapshot.height = second.image.height();
+  snapshot.jpeg = jpeg_of(second.image.view());
+  snapshot.acs = pair.acs;
+  const double bound = options.front_end.consensus.threshold_px / second.camera.focal_px();
+  for (const AffineCorrespondence& ac : pair.acs) {
+    const double r = distance(step.pose, normalise(ac, first.camera, second.camera));
+    snapshot.inlier.push_back(r <= bound);
+  }
+  return snapshot;
+}
+
+}  // namespace
+
+std::vector<WorstFrame> worst_frames(const DriveRecord& record, const RunEvaluation& evaluation,
+                                     std::size_t count) {
+  std::vector<std::size_t> steps, predicted;
+  std::map<std::size_t, std::size_t> frame_of_index;
+  for (std::size_t i = 0; i < record.frames.size(); ++i) {
+    if (!record.frames[i].step) continue;
+    steps.push_back(i);
+    frame_of_index[record.frames[i].step->index2] = i;
+    if (record.frames[i].step->status == StepStatus::kPredicted) predicted.push_back(i);
+  }
+  std::map<std::size_t, PairError> errors;
+  if (evaluation.against_poses) {
+    for (const PairError& error : evaluation.against_poses->pairs) {
+      const auto found = frame_of_index.find(error.index2);
+      if (found != frame_of_index.end()) errors[found->second] = error;
+    }
+  }
+  const auto step = [&](std::size_t i) -> const StepResult& { return *record.frames[i].step; };
+  const auto fewer = [&](std::size_t a, std::size_t b) {
+    return step(a).inliers < step(b).inliers;
+  };
+  Chooser chooser(count);
+  chooser.take(predicted, count / 3, fewer, [&](std::size_t i) {
+    return "the images did not carry the step, " + inliers_text(step(i));
+  });
+  std::vector<std::size_t> judged;
+  for (const auto& [frame, error] : errors) judged.push_back(frame);
+  chooser.take(
+      judged, count / 3,
+      [&](std::size_t a, std::size_t b) { return badness(errors[a]) > badness(errors[b]); },
+      [&](std::size_t i) { return "far from the reference: " + error_text(errors[i]); });
+  chooser.take(steps, count, fewer,
+               [&](std::size_t i) { return "among the fewest inliers: " + inliers_text(step(i)); });
+  return chooser.result();
+}
+
+std::vector<FramePicture> draw_frames(const DriveRecord& record, const RunOptions& options,
+                                      const std::vector<WorstFrame>& frames) {
+  std::set<std::size_t> wanted;
+  for (const WorstFrame& frame : frames) {
+    wanted.insert(record.frames[frame.frame].step->index1);
+    wanted.insert(record.frames[frame.frame].step->index2);
+  }
+  std::vector<FramePicture> pictures;
+  try {
+    RawlogSource source(options.source.for_log(options.log));
+    std::map<std::size_t, FrameTicket> tickets;
+    while (tickets.size() < wanted.size()) {
+      auto ticket = source.next();
+      if (!ticket) break;
+      if (wanted.count(ticket->index) == 1) tickets.emplace(ticket->index, *ticket);
+    }
+    for (const WorstFrame& frame : frames) {
+      const StepResult& step = *record.frames[frame.frame].step;
+      pictures.push_back(
+          {frame, snapshot_of(record, options, step, source.load(tickets.at(step.index1)),
+                              source.load(tickets.at(step.index2)))});
+    }
+  } catch (const std::exception&) {
+    // The log changed under the run, or the images went: the pictures so far are the report's.
+  }
+  return pictures;
+}
+
+}  // namespace oneac::app

@@ -1,0 +1,39 @@
+#pragma once
+
+#include "drive_record.h"
+#include "run_options.h"
+#include "run_summary.h"
+
+#include "oneac/evaluation/snapshot_svg.h"
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+namespace oneac::app {
+
+/// A step worth looking at.
+struct WorstFrame {
+  std::size_t frame = 0;  ///< of the record; its step leads to it
+  std::string reason;     ///< why it was chosen
+};
+
+/// A step's second image with its correspondences, those that obey the step's pose marked.
+struct FramePicture {
+  WorstFrame frame;
+  Snapshot snapshot;
+};
+
+/// Up to `count` steps in order of time: those that the images did not carry, those that are
+/// farthest from the reference, those with the fewest inliers.
+[[nodiscard]] std::vector<WorstFrame> worst_frames(const DriveRecord& record,
+                                                   const RunEvaluation& evaluation,
+                                                   std::size_t count);
+
+/// Reads the images once more and extracts their correspondences pair by pair, without the history
+/// that a tracker had in the drive. Images that cannot be read again are left out.
+[[nodiscard]] std::vector<FramePicture> draw_frames(const DriveRecord& record,
+                                                    const RunOptions& options,
+                                                    const std::vector<WorstFrame>& frames);
+
+}  // namespace oneac::app
