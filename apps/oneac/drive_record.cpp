@@ -15,6 +15,11 @@ void DriveRecord::take(Settled settled) {
 Trajectory DriveRecord::keyframe_trajectory() const {
   Trajectory trajectory;
   for (const Keyframe& keyframe : keyframes) {
+    // A map that begins anew begins at the last frame, which may have closed the map before.
+    if (!trajectory.times.empty() && keyframe.time_s <= trajectory.times.back()) {
+      trajectory.poses.back() = keyframe.T_first_cam;
+      continue;
+    }
     trajectory.times.push_back(keyframe.time_s);
     trajectory.poses.push_back(keyframe.T_first_cam);
   }

@@ -74,5 +74,39 @@ TEST_F(SimulatedDrive, TheTrajectoryStaysOnTheRoad) {
   EXPECT_LE(evaluation_.trajectory->ape.rmse, 0.05 * evaluation_.trajectory->length);
 }
 
+/// Everything that hurts at once: a ten-second stop, right-angled bends, a 3 % slope, traffic that
+/// crosses, a dark stretch while driving.
+TEST(HardDrive, IsNeverLostAndKeepsItsMetres) {
+  const TemporaryFolder folder;
+  const std::string drive = (folder.path() / "drive").string();
+  const std::string out = (folder.path() / "out").string();
+  ASSERT_EQ(run_program({ONEAC_PROGRAM, "simulate", "-o", drive, "--frames", "360", "--stop", "10",
+                         "--slope", "3", "--crossing-traffic", "--dark-from", "4", "--dark", "1"})
+                .exit_code,
+            0);
+  const ProgramResult run =
+      run_program({ONEAC_PROGRAM, "run", drive + "/simulated.rawlog", "-o", out});
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  const auto rows = read_relative_poses(out + "/relative_poses.csv");
+  const Trajectory estimate = read_kitti(out + "/trajectory_camera.kitti");
+  const Evaluation evaluation = evaluate_run(rows, estimate, read_kitti(drive + "/poses.txt"));
+  EXPECT_EQ(estimate.poses.size(), 360U);
+  ASSERT_TRUE(evaluation.trajectory.has_value());
+  EXPECT_LE(std::abs(*evaluation.trajectory->scale_error), 0.02);
+  EXPECT_LE(evaluation.trajectory->ape.rmse, 0.02 * evaluation.trajectory->length);
+  double moved_while_standing = 0.0;
+  int standing = 0;
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    if (rows[i].status == "ok") {
+      EXPECT_FALSE(evaluation.pairs[i].is_bad()) << "pair " << rows[i].index1;
+    }
+    if (evaluation.pairs[i].true_step > 1e-4 || rows[i].status == "predicted") continue;
+    ++standing;
+    moved_while_standing += rows[i].T_2_1.t.norm();
+  }
+  EXPECT_GE(standing, 60);
+  EXPECT_LT(moved_while_standing, 0.02);
+}
+
 }  // namespace
 }  // namespace oneac

@@ -125,6 +125,11 @@ void Odometry::follow(const StepTracks& tracks, const TwoView& found, StepResult
   if (!map_) return;
   if (found.status == StepStatus::kPredicted) {
     map_->extend({}, {});  // nothing goes on
+    lost_ = true;
+    return;
+  }
+  if (std::exchange(lost_, false)) {
+    restart(tracks, found);
     return;
   }
   map_->extend(tracks, found.inliers);
@@ -168,7 +173,8 @@ void Odometry::set_length(const StepTracks& tracks, const TwoView& found, const 
     step.pose.t *= step.length;
   } else {
     step.length_sigma = 0.0;
-    if (step.landmarks == 0) step.length = held_length(seconds, step.time2);
+    if (step.landmarks == 0)
+      step.length = held_length(seconds, step.time2, step.status == StepStatus::kOk);
   }
 }
 
@@ -187,9 +193,9 @@ void Odometry::move(const StepResult& step) {
 
 void Odometry::update_map(const CameraFrame& frame, StepResult& step, FrameResult& result) {
   if (!map_) return;
-  const bool moved = step.status == StepStatus::kOk ||
-                     (step.status == StepStatus::kNoMotion && !step.pose.R.isIdentity(1e-9));
-  if (moved && map_->needs_keyframe(T_cam_map_, frame.time_s - keyframe_time_)) {
+  // A camera that only turns adds no baseline: its keyframe would triangulate noise.
+  if (step.status == StepStatus::kOk &&
+      map_->needs_keyframe(T_cam_map_, frame.time_s - keyframe_time_)) {
     map_->add_keyframe(frames_, T_cam_map_);
     keyframe_gap_ = frame.time_s - std::exchange(keyframe_time_, frame.time_s);
     static_cast<void>(map_->refine(tilt_->leveling()));

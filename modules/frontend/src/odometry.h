@@ -55,7 +55,7 @@ class Odometry {
                   StepResult& step);
   void measure_pair(const StepTracks& tracks, const TwoView& found, double focal_px,
                     StepResult& step);
-  [[nodiscard]] double held_length(double seconds, double time) const;
+  [[nodiscard]] double held_length(double seconds, double time, bool found_motion) const;
   void follow(const StepTracks& tracks, const TwoView& found, StepResult& step);
   void restart(const StepTracks& tracks, const TwoView& found);
   void move(const StepResult& step);
@@ -82,6 +82,7 @@ class Odometry {
   CameraFrame previous_;
   std::size_t frames_ = 0;  ///< processed
   std::size_t segment_ = 0;
+  bool lost_ = false;               ///< the last step was not carried by its images
   double keyframe_time_ = 0.0;      ///< [s] of the last keyframe
   double keyframe_gap_ = 0.0;       ///< [s] between the last two
   RelativePose T_cam_map_;          ///< newest frame; the map's frame is the first camera's

@@ -18,6 +18,8 @@ constexpr double kSpeedSigma = 0.1;
 constexpr double kUsualAcceleration = 1.0;
 constexpr double kOldestSpeed = 1.1;
 constexpr double kSlowestSpeed = 1.5;
+// [m] first step of a car that moves off, for want of better; the road corrects it.
+constexpr double kFirstStep = 0.05;
 // Samples of an accelerometer whose mean beats the log's mounting.
 constexpr std::size_t kEnoughAccelerations = 10;
 
@@ -36,12 +38,13 @@ void Odometry::measure_pair(const StepTracks& tracks, const TwoView& found, doub
   step.metric = true;
 }
 
-double Odometry::held_length(double seconds, double time) const {
+double Odometry::held_length(double seconds, double time, bool found_motion) const {
   if (last_motion_.t.norm() == 0.0 && last_metric_time_ == 0.0) return 1.0;  // the unit of the map
-  if (time - last_metric_time_ > options_.max_hold || !(seconds > 0.0)) {
-    return last_motion_.t.norm();
-  }
-  return last_metric_speed_ * seconds;
+  const bool too_old = time - last_metric_time_ > options_.max_hold || !(seconds > 0.0);
+  const double held = too_old ? last_motion_.t.norm() : last_metric_speed_ * seconds;
+  // A map that begins with a car moving off needs some length to measure the road in.
+  const bool begins = std::isinf(scale_.uncertainty()) && held < kFirstStep;
+  return begins && found_motion ? kFirstStep : held;
 }
 
 void Odometry::measure_scale(double focal_px, StepResult& step) {

@@ -5,18 +5,28 @@
 namespace oneac {
 namespace {
 
-std::vector<std::uint64_t> chosen_tracks(const TrackMap& tracks, std::size_t most) {
-  std::vector<std::uint64_t> chosen;
+struct Candidate {
+  std::uint64_t id;
+  const Track* track;
+};
+
+/// The longest tracks with a depth, in the order of their numbers.
+std::vector<Candidate> chosen_tracks(const TrackMap& tracks, std::size_t most) {
+  std::vector<Candidate> chosen;
   for (const auto& [id, track] : tracks) {
     const bool seen_twice = track.has_depth && track.seen.size() >= 2;
-    if (seen_twice && track.sighting(track.anchor) != nullptr) chosen.push_back(id);
+    if (seen_twice && track.sighting(track.anchor) != nullptr) chosen.push_back({id, &track});
   }
   if (chosen.size() <= most) return chosen;
-  std::stable_sort(chosen.begin(), chosen.end(), [&](std::uint64_t a, std::uint64_t b) {
-    return tracks.at(a).seen.size() > tracks.at(b).seen.size();
+  const auto last = chosen.begin() + static_cast<std::ptrdiff_t>(most);
+  std::nth_element(chosen.begin(), last, chosen.end(), [](const Candidate& a, const Candidate& b) {
+    const std::size_t length_a = a.track->seen.size();
+    const std::size_t length_b = b.track->seen.size();
+    return length_a > length_b || (length_a == length_b && a.id < b.id);
   });
-  chosen.resize(most);
-  std::sort(chosen.begin(), chosen.end());
+  chosen.erase(last, chosen.end());
+  std::sort(chosen.begin(), chosen.end(),
+            [](const Candidate& a, const Candidate& b) { return a.id < b.id; });
   return chosen;
 }
 
@@ -54,9 +64,10 @@ WindowExchange to_sliding_window(const std::deque<WindowKeyframe>& keyframes,
   for (std::size_t i = 0; i < count; ++i) {
     exchange.window.views.push_back({keyframes[i].T_cam_map, i < fixed});
   }
-  exchange.tracks = chosen_tracks(tracks, static_cast<std::size_t>(options.max_landmarks));
-  for (const std::uint64_t id : exchange.tracks) {
-    add_track(tracks.at(id), keyframes.front().id, exchange.window);
+  for (const Candidate& chosen :
+       chosen_tracks(tracks, static_cast<std::size_t>(options.max_landmarks))) {
+    exchange.tracks.push_back(chosen.id);
+    add_track(*chosen.track, keyframes.front().id, exchange.window);
   }
   return exchange;
 }
