@@ -24,7 +24,7 @@ class TrackSearch {
     for (const bool fresh : {false, true}) {
       for (std::size_t i = 0; i < tracks_.size(); ++i) {
         if ((tracks_[i].age == 0) != fresh) continue;
-        matches_[i] = flow_.find(tracks_[i].u, guesses(tracks_[i]));
+        matches_[i] = flow_.find(tracks_[i].u, guesses(tracks_[i]), memory(tracks_[i]));
         if (!matches_[i]) lost.push_back(i);
       }
       found_ = matches_;  // neighbours of what follows: never of a result of the same round
@@ -32,12 +32,17 @@ class TrackSearch {
     for (const std::size_t i : lost) {
       std::vector<FlowGuess> second_try;
       add_neighbours(tracks_[i], second_try);
-      if (!second_try.empty()) matches_[i] = flow_.find(tracks_[i].u, second_try);
+      if (second_try.empty()) continue;
+      matches_[i] = flow_.find(tracks_[i].u, second_try, memory(tracks_[i]));
     }
     return std::move(matches_);
   }
 
  private:
+  static PatchMemory memory(const KltTrack& track) {
+    return {track.reference_is_here ? track.reference.get() : nullptr, track.window};
+  }
+
   [[nodiscard]] std::vector<FlowGuess> guesses(const KltTrack& track) const {
     std::vector<FlowGuess> guesses;
     if (track.age > 0) {

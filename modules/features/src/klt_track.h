@@ -5,6 +5,7 @@
 
 #include "oneac/features/ac_extractor.h"
 
+#include <cstddef>
 #include <cstdint>
 #include <memory>
 
@@ -26,6 +27,8 @@ struct KltTrack {
   Eigen::Matrix2d A = Eigen::Matrix2d::Identity();  ///< of the last pair
   Eigen::Matrix2d A_now_reference = Eigen::Matrix2d::Identity();
   std::unique_ptr<AnchoredPatch> reference;  ///< first patch; renewed when scale changes
+  bool reference_is_here = false;            ///< it was taken at u in the anchor frame
+  std::size_t window = 0;                    ///< to try first, PatchMatch::window
   int at_rest = 0;                           ///< pairs it rested while it had to move
 };
 

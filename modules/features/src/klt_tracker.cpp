@@ -113,6 +113,7 @@ TrackedPair KltTracker::take(const KltFrame& now, const MotionPrediction& motion
     track.A = matches[i]->warp.M;
     track.flow = u2 - track.u;
     track.u = u2;
+    track.window = matches[i]->window;
     ++track.age;
     kept.push_back(std::move(track));
   }
@@ -124,6 +125,7 @@ TrackedPair KltTracker::take(const KltFrame& now, const MotionPrediction& motion
 bool KltTracker::holds(KltTrack& track, const KltFrame& now, const PatchMatch& match) const {
   if (!mask_.usable(match.warp.centre)) return false;
   track.A_now_reference = match.warp.M * track.A_now_reference;
+  track.reference_is_here = false;
   const double scale = std::sqrt(std::abs(track.A_now_reference.determinant()));
   if (track.reference && scale < kReferenceScale && scale > 1.0 / kReferenceScale) {
     PatchWarp warp;
@@ -133,9 +135,10 @@ bool KltTracker::holds(KltTrack& track, const KltFrame& now, const PatchMatch& m
     return zncc >= options_.klt.drift_zncc || zncc < -0.999;  // −1: sticks out of the image
   }
   auto renewed = std::make_unique<AnchoredPatch>();
-  if (!anchor_adapted(now.pyramid, match.warp.centre, *renewed)) return false;
+  if (!anchor_adapted(now.pyramid, match.warp.centre, *renewed, match.window)) return false;
   track.reference = std::move(renewed);
   track.A_now_reference.setIdentity();
+  track.reference_is_here = true;
   return true;
 }
 
@@ -145,6 +148,7 @@ void KltTracker::start_track(const KltFrame& now, const Eigen::Vector2d& u) {
   if (!anchor_adapted(now.pyramid, u, *track.reference)) return;
   track.id = next_id_++;
   track.u = u;
+  track.reference_is_here = true;
   history_.start(track.id, frame_, u);
   tracks_.push_back(std::move(track));
 }

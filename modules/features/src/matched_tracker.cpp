@@ -67,7 +67,7 @@ TrackedPair MatchedTracker::advance(std::shared_ptr<const FrameFeatures> now, co
         PatchWarp warp;
         warp.M = ac.A;
         warp.centre = ac.x2;
-        const auto match = flow.refine(ac.x1, warp);
+        const auto match = flow.refine(ac.x1, warp, {});
         if (!match) continue;
         aligned = {ac.x1, match->warp.centre, match->warp.M};
         quality = match->quality;

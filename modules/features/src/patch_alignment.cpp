@@ -1,7 +1,5 @@
 #include "patch_alignment.h"
 
-#include "cholesky.h"
-
 #include <Eigen/LU>
 
 #include <algorithm>
@@ -12,10 +10,12 @@ namespace {
 
 constexpr double kGrey = 16.0;          // pyramid units of one grey level
 constexpr double kLeastContrast = 2.0;  // [grey] below it a patch is noise
-constexpr int kMaxIterations = 12;
-// [px of the level] of centre and rim: what a coarse level and a first round leave to the next one,
-// and what is left at last, a tenth of the usual 1σ.
-constexpr double kRoughlyConverged = 0.05;
+// Steps shrink to a half or faster where the texture determines them: from 3 px to 0.1 px in five.
+constexpr int kMaxShiftIterations = 8;
+constexpr int kMaxAffineIterations = 12;
+// [px of the level] of centre and rim: the step not taken any more. A coarse level and a first
+// round leave a thirtieth of what the next one captures, the last round a tenth of the usual 1σ.
+constexpr double kRoughlyConverged = 0.1;
 constexpr double kConverged = 0.01;
 constexpr double kMaxGain = 2.0;          // and its inverse: exposure steps of one stop
 constexpr double kTukey = 4.685;          // [σ] 95 % efficiency under Gaussian noise
@@ -36,9 +36,12 @@ struct Problem {
   const AnchoredPatch& patch;
   const ImagePyramid& image;
   const float* weight;
-  SpdInverse<kCount> inverse;
-  AlignmentSums sums;
+  SpdInverse<kCount> inverse{};
+  AlignmentSums sums{};
   alignas(64) float residual[kMaxSamples];
+
+  Problem(const AnchoredPatch& anchored, const ImagePyramid& other)
+      : patch(anchored), image(other), weight(anchored.window->weight) {}
 
   [[nodiscard]] const PatchWindow& window() const { return *patch.window; }
 
@@ -56,58 +59,73 @@ struct Problem {
 
   /// Residuals at the warp; false when the window leaves the image.
   [[nodiscard]] bool look(const PatchWarp& warp) {
-    const auto grid = place(image, patch.level, warp, static_cast<double>(window().radius),
+    PatchWarp looked = warp;
+    if constexpr (kCount == kTranslationParameters) looked.M.setIdentity();
+    const auto grid = place(image, patch.level, looked, static_cast<double>(window().radius),
                             margin_at(patch.level));
     if (!grid) return false;
     const float gain = static_cast<float>(warp.gain) * patch.patch.contrast;
     const float bias =
         static_cast<float>(warp.gain) * patch.patch.mean + static_cast<float>(warp.bias);
-    patch_kernels().residuals(*grid, window(), patch.patch, weight, gain, bias, residual, sums);
+    const PatchKernels& kernels = patch_kernels();
+    if constexpr (kCount == kTranslationParameters) {
+      kernels.shift_residuals(*grid, window(), patch.patch, gain, bias, sums);
+    } else {
+      kernels.residuals(*grid, window(), patch.patch, weight, gain, bias, residual, sums);
+    }
     return true;
   }
 };
 
-/// W ← W ∘ dW⁻¹ and the photometric part likewise; returns the largest motion of centre and rim
-/// [px of the level].
-double compose(const AnchoredPatch& patch, const Eigen::Matrix2d& dA, const Eigen::Vector2d& shift,
-               double dgain, double dbias, PatchWarp& warp) {
-  const double scale = std::ldexp(1.0, static_cast<int>(patch.level));
-  warp.M *= (Eigen::Matrix2d::Identity() + dA).inverse();
-  warp.centre -= scale * (warp.M * shift);
+/// The photometric part of W ← W ∘ dW⁻¹.
+void compose_light(const AnchoredPatch& patch, double dgain, double dbias, PatchWarp& warp) {
   // I = gain (contrast T + mean) + bias, and T became (1 + dgain) T + dbias.
   const double contrast = static_cast<double>(patch.patch.contrast);
   const double mean = static_cast<double>(patch.patch.mean);
   const double level_of_grey = warp.gain * mean + warp.bias + warp.gain * contrast * dbias;
   warp.gain = std::clamp(warp.gain * (1.0 + dgain), 1.0 / kMaxGain, kMaxGain);
   warp.bias = level_of_grey - warp.gain * mean;
-  return shift.norm() + dA.norm() * static_cast<double>(patch.window->radius);
 }
 
+/// W ← W ∘ dW⁻¹; returns the largest motion of centre and rim [px of the level].
 double step(Problem<kAffineParameters>& problem, PatchWarp& warp) {
   double p[kAffineParameters];
   problem.inverse.multiply(problem.sums.gradient, p);
   Eigen::Matrix2d dA;
   dA << p[0], p[1], p[2], p[3];
+  const double rim = dA.norm();
   dA /= static_cast<double>(problem.window().radius);
-  return compose(problem.patch, dA, {p[4], p[5]}, p[6], p[7], warp);
+  const Eigen::Vector2d shift(p[4], p[5]);
+  warp.M *= (Eigen::Matrix2d::Identity() + dA).inverse();
+  warp.centre -= level_scale(problem.patch.level) * (warp.M * shift);
+  compose_light(problem.patch, p[6], p[7], warp);
+  return shift.norm() + rim;
 }
 
 double step(Problem<kTranslationParameters>& problem, PatchWarp& warp) {
   double p[kTranslationParameters];
   problem.inverse.multiply(problem.sums.gradient + 4, p);
-  return compose(problem.patch, Eigen::Matrix2d::Zero(), {p[0], p[1]}, p[2], p[3], warp);
+  const Eigen::Vector2d shift(p[0], p[1]);
+  warp.centre -= level_scale(problem.patch.level) * shift;
+  compose_light(problem.patch, p[2], p[3], warp);
+  return shift.norm();
 }
 
-/// Steps until they are small. True also when they are still shrinking at the end: the gates that
+/// Steps until the next one would be small: steps shrink by a factor from one to the next, so it is
+/// motion² / last. True also when they are still shrinking at the end: the gates that
 /// follow decide. False when the window leaves the image or is torn.
 template <std::size_t kCount>
 bool iterate(Problem<kCount>& problem, PatchWarp& warp, double converged) {
   const double radius = static_cast<double>(problem.window().radius);
+  constexpr int kMaxIterations =
+      kCount == kTranslationParameters ? kMaxShiftIterations : kMaxAffineIterations;
+  double last = 0.0;
   for (int i = 0; i < kMaxIterations; ++i) {
     if (!problem.look(warp)) return false;
     const double motion = step(problem, warp);
     if (!(motion < 2.0 * radius) || !(warp.M.determinant() > 0.0)) return false;
-    if (motion < converged) break;
+    if (motion < converged || motion * motion < converged * last) break;
+    last = motion;
   }
   return true;
 }
@@ -127,7 +145,7 @@ void set_sigmas(const SpdInverse<kAffineParameters>& inverse, const AnchoredPatc
   double affine = 0.0;
   for (std::size_t k = 0; k < 4; ++k) affine += inverse(k, k);
   const double point = inverse(4, 4) + inverse(5, 5);
-  const double scale = std::ldexp(1.0, static_cast<int>(patch.level));
+  const double scale = level_scale(patch.level);
   quality.affine_sigma =
       residual_sigma * std::sqrt(affine / 4.0) / static_cast<double>(patch.window->radius);
   quality.point_sigma = residual_sigma * std::sqrt(point / 2.0) * scale;
@@ -154,24 +172,31 @@ bool refine_robustly(Problem<kAffineParameters>& problem, PatchWarp& warp,
 }  // namespace
 
 bool anchor_patch(const ImagePyramid& pyramid, std::size_t level, const PatchWindow& window,
-                  const Eigen::Vector2d& u, AnchoredPatch& patch) {
-  PatchWarp here;
-  here.centre = u;
+                  const PatchWarp& here, AnchoredPatch& patch) {
+  patch.window = &window;
+  patch.level = level;
+  patch.M = here.M;
+  patch.inverted = false;
   // One pixel more for the gradient.
   const auto grid =
       place(pyramid, level, here, static_cast<double>(window.radius) + 1.0, margin_at(level) + 1.0);
   if (!grid) return false;
-  patch.window = &window;
-  patch.level = level;
   patch_kernels().make_template(*grid, window, patch.patch);
   // Coarse levels average the texture away: there only what is blank is refused.
   const double least = level == 0 ? kLeastContrast * kGrey : 0.5 * kLeastContrast * kGrey;
   return static_cast<double>(patch.patch.contrast) >= least;
 }
 
+bool anchor_patch(const ImagePyramid& pyramid, std::size_t level, const PatchWindow& window,
+                  const Eigen::Vector2d& u, AnchoredPatch& patch) {
+  PatchWarp here;
+  here.centre = u;
+  return anchor_patch(pyramid, level, window, here, patch);
+}
+
 bool align_shift(const AnchoredPatch& patch, const ImagePyramid& image, PatchWarp& warp,
                  AlignmentQuality& quality) {
-  Problem<kTranslationParameters> problem{patch, image, nullptr, {}, {}, {}};
+  Problem<kTranslationParameters> problem(patch, image);
   if (!problem.set_weights(patch.window->weight) || !iterate(problem, warp, kRoughlyConverged))
     return false;
   quality.zncc = zncc(*patch.window, problem.sums);
@@ -180,25 +205,29 @@ bool align_shift(const AnchoredPatch& patch, const ImagePyramid& image, PatchWar
 
 bool align_affine(const AnchoredPatch& patch, const ImagePyramid& image, bool robust,
                   PatchWarp& warp, AlignmentQuality& quality) {
-  Problem<kAffineParameters> problem{patch, image, nullptr, {}, {}, {}};
-  if (!problem.set_weights(patch.window->weight) || !iterate(problem, warp, kRoughlyConverged))
+  Problem<kAffineParameters> problem(patch, image);
+  if (patch.inverted) {
+    problem.inverse = patch.inverse;
+  } else if (!problem.set_weights(patch.window->weight)) {
     return false;
+  }
+  if (!iterate(problem, warp, kRoughlyConverged)) return false;
   quality.zncc = zncc(*patch.window, problem.sums);
   return !robust || refine_robustly(problem, warp, quality);
 }
 
 double compare_patch(const AnchoredPatch& patch, const ImagePyramid& image, const PatchWarp& warp) {
-  Problem<kTranslationParameters> problem{patch, image, patch.window->weight, {}, {}, {}};
+  Problem<kAffineParameters> problem(patch, image);
   return problem.look(warp) ? zncc(*patch.window, problem.sums) : -1.0;
 }
 
-double expected_affine_sigma(const AnchoredPatch& patch) {
+double expected_affine_sigma(AnchoredPatch& patch) {
   float upper[kAffineParameters * (kAffineParameters + 1) / 2];
   patch_kernels().affine_normal(*patch.window, patch.patch, patch.window->weight, upper);
-  SpdInverse<kAffineParameters> inverse;
-  if (!inverse.set(upper)) return HUGE_VAL;
+  patch.inverted = patch.inverse.set(upper);
+  if (!patch.inverted) return HUGE_VAL;
   AlignmentQuality quality;
-  set_sigmas(inverse, patch, kGrey / static_cast<double>(patch.patch.contrast), quality);
+  set_sigmas(patch.inverse, patch, kGrey / static_cast<double>(patch.patch.contrast), quality);
   return quality.affine_sigma;
 }
 

@@ -10,6 +10,9 @@ namespace {
 
 // [px of the level] window of the shift: 113 samples see texture enough for two unknowns.
 constexpr double kFlowRadius = 6.0;
+// [px of the level] a deformation that moves the rim by less is left to the affine alignment: the
+// window is symmetric, the shift hardly feels it.
+constexpr double kSameShape = 0.25;
 constexpr double kCoarseAffineRadius = 7.0;  // [px of level 1]
 constexpr double kFits = 0.9;                // [ZNCC] a guess that fits so well ends the search
 constexpr double kDoubtful = 0.5;        // [ZNCC at level 1] below it no guess has found the patch
@@ -21,9 +24,12 @@ constexpr double kMaxDeformation = 0.6;  // [-] |A − A0|: beyond it the linear
 // 0.01.
 constexpr double kRadii[] = {8.0, 11.0, 14.0};
 constexpr double kGoodSigma = 0.0025;
+// With the window's size n the σ of an entry of A falls as n⁻²: (8/11)² is about a half. A patch
+// that is better than that may do with the next smaller window.
+constexpr double kShrinkSigma = 0.5 * kGoodSigma;
 
 const PatchWindow& flow_window() {
-  static const PatchWindow window = round_window(kFlowRadius);
+  static const PatchWindow window = padded_window(kFlowRadius);
   return window;
 }
 
@@ -38,22 +44,36 @@ const PatchWindow& fine_window(std::size_t i) {
   return windows[i];
 }
 
+bool same_shape(const Eigen::Matrix2d& one, const Eigen::Matrix2d& two) {
+  return (one - two).squaredNorm() * kFlowRadius * kFlowRadius < kSameShape * kSameShape;
+}
+
+/// M, or the identity where it does as well: patches as the image shows them are made faster.
+Eigen::Matrix2d shape(const Eigen::Matrix2d& M) {
+  const Eigen::Matrix2d I = Eigen::Matrix2d::Identity();
+  return same_shape(M, I) ? I : M;
+}
+
 }  // namespace
 
-bool anchor_adapted(const ImagePyramid& image, const Eigen::Vector2d& u, AnchoredPatch& patch) {
-  constexpr std::size_t kCount = std::size(kRadii);
-  for (std::size_t i = 0; i < kCount; ++i) {
+bool anchor_adapted(const ImagePyramid& image, const Eigen::Vector2d& u, AnchoredPatch& patch,
+                    std::size_t window) {
+  for (std::size_t i = window; i < std::size(kRadii); ++i) {
     if (!anchor_patch(image, 0, fine_window(i), u, patch)) {
+      patch.next_window = i > 0 ? i - 1 : 0;
       return i > 0 && anchor_patch(image, 0, fine_window(i - 1), u, patch);
     }
-    if (i + 1 == kCount || expected_affine_sigma(patch) < kGoodSigma) break;
+    patch.next_window = i;
+    const double sigma = expected_affine_sigma(patch);
+    if (sigma < kShrinkSigma && i > 0) patch.next_window = i - 1;
+    if (sigma < kGoodSigma) break;
   }
   return true;
 }
 
-const AnchoredPatch* PatchFlow::patch_at(std::size_t level, const Eigen::Vector2d& u1) {
-  if (state_[level] == 0) {
-    state_[level] = anchor_patch(first_, level, flow_window(), u1, patches_[level]) ? 1 : -1;
+const AnchoredPatch* PatchFlow::patch_at(std::size_t level, const PatchWarp& here) {
+  if (state_[level] == 0 || !same_shape(patches_[level].M, here.M)) {
+    state_[level] = anchor_patch(first_, level, flow_window(), here, patches_[level]) ? 1 : -1;
   }
   return state_[level] == 1 ? &patches_[level] : nullptr;
 }
@@ -61,9 +81,12 @@ const AnchoredPatch* PatchFlow::patch_at(std::size_t level, const Eigen::Vector2
 std::optional<PatchFlow::Found> PatchFlow::descend(const Eigen::Vector2d& u1,
                                                    const FlowGuess& guess) {
   Found found{guess.warp, -1.0};
+  PatchWarp here;
+  here.M = shape(guess.warp.M.inverse());
+  here.centre = u1;
   const std::size_t top = std::min({guess.level, first_.levels.size() - 1, kMaxLevels - 1});
   for (std::size_t level = top; level >= 1; --level) {
-    const AnchoredPatch* patch = patch_at(level, u1);
+    const AnchoredPatch* patch = patch_at(level, here);
     if (patch == nullptr) {
       if (level > 1) continue;  // blank when shrunk so far: the next level may show something
       return std::nullopt;
@@ -81,8 +104,9 @@ std::optional<PatchFlow::Found> PatchFlow::descend(const Eigen::Vector2d& u1,
 
 bool PatchFlow::returns(const Eigen::Vector2d& u1, const FlowGuess& guess,
                         const PatchWarp& found) const {
-  PatchWarp back;
-  back.M = guess.warp.M.inverse();
+  PatchWarp here, back;
+  here.M = shape(guess.warp.M);
+  here.centre = found.centre;
   back.centre = found.centre - (guess.warp.centre - u1);
   AnchoredPatch patch;
   AlignmentQuality quality;
@@ -92,14 +116,15 @@ bool PatchFlow::returns(const Eigen::Vector2d& u1, const FlowGuess& guess,
   std::size_t level = 1;
   while (level < top && error > kCapture * std::ldexp(1.0, static_cast<int>(level))) ++level;
   for (; level >= 1; --level) {
-    if (!anchor_patch(second_, level, flow_window(), found.centre, patch)) continue;
+    if (!anchor_patch(second_, level, flow_window(), here, patch)) continue;
     if (!align_shift(patch, first_, back, quality) && level == 1) return false;
   }
   return (back.centre - u1).norm() <= options_.forward_backward_px;
 }
 
 std::optional<PatchMatch> PatchFlow::find(const Eigen::Vector2d& u1,
-                                          const std::vector<FlowGuess>& guesses) {
+                                          const std::vector<FlowGuess>& guesses,
+                                          const PatchMemory& memory) {
   state_.fill(0);
   Found best;
   const FlowGuess* origin = nullptr;
@@ -111,10 +136,11 @@ std::optional<PatchMatch> PatchFlow::find(const Eigen::Vector2d& u1,
     if (best.zncc > kFits) break;
   }
   if (best.zncc < kDoubtful || !returns(u1, *origin, best.warp)) return std::nullopt;
-  return refine(u1, best.warp);
+  return refine(u1, best.warp, memory);
 }
 
-std::optional<PatchMatch> PatchFlow::refine(const Eigen::Vector2d& u1, const PatchWarp& start) {
+std::optional<PatchMatch> PatchFlow::refine(const Eigen::Vector2d& u1, const PatchWarp& start,
+                                            const PatchMemory& memory) {
   AnchoredPatch patch;
   PatchMatch match{start, {}};
   if (first_.levels.size() > 1 && anchor_patch(first_, 1, coarse_affine_window(), u1, patch)) {
@@ -124,8 +150,13 @@ std::optional<PatchMatch> PatchFlow::refine(const Eigen::Vector2d& u1, const Pat
       match.warp = warp;
     }
   }
-  if (!anchor_adapted(first_, u1, patch)) return std::nullopt;
-  if (!align_affine(patch, second_, true, match.warp, match.quality)) return std::nullopt;
+  const AnchoredPatch* fine = memory.patch;
+  if (fine == nullptr) {
+    if (!anchor_adapted(first_, u1, patch, memory.window)) return std::nullopt;
+    fine = &patch;
+  }
+  match.window = fine->next_window;
+  if (!align_affine(*fine, second_, true, match.warp, match.quality)) return std::nullopt;
   const bool good = match.quality.zncc >= options_.min_zncc &&
                     match.quality.affine_sigma <= options_.max_affine_sigma &&
                     (match.warp.centre - start.centre).norm() <= kMaxCorrection &&

@@ -5,6 +5,7 @@
 #include "oneac/features/feature_options.h"
 
 #include <array>
+#include <cstddef>
 #include <optional>
 #include <vector>
 
@@ -21,6 +22,13 @@ struct FlowGuess {
 struct PatchMatch {
   PatchWarp warp;
   AlignmentQuality quality;
+  std::size_t window = 0;  ///< where the search for this track's window starts in the next pair
+};
+
+/// What a track knows of its patch at level 0.
+struct PatchMemory {
+  const AnchoredPatch* patch = nullptr;  ///< made by anchor_adapted() at this place, or none
+  std::size_t window = 0;                ///< else the window to try first
 };
 
 /// Finds one patch of the first image in the second.
@@ -32,9 +40,11 @@ class PatchFlow {
   /// Coarse to fine from the guesses, in turn, until one fits; forward-backward gate; affine
   /// alignment. Empty when any gate refuses.
   [[nodiscard]] std::optional<PatchMatch> find(const Eigen::Vector2d& u1,
-                                               const std::vector<FlowGuess>& guesses);
+                                               const std::vector<FlowGuess>& guesses,
+                                               const PatchMemory& memory);
   /// Affine alignment alone, from a warp already close (matched features).
-  [[nodiscard]] std::optional<PatchMatch> refine(const Eigen::Vector2d& u1, const PatchWarp& start);
+  [[nodiscard]] std::optional<PatchMatch> refine(const Eigen::Vector2d& u1, const PatchWarp& start,
+                                                 const PatchMemory& memory);
 
  private:
   static constexpr std::size_t kMaxLevels = 6;
@@ -43,7 +53,7 @@ class PatchFlow {
     double zncc = -1.0;
   };
 
-  [[nodiscard]] const AnchoredPatch* patch_at(std::size_t level, const Eigen::Vector2d& u1);
+  [[nodiscard]] const AnchoredPatch* patch_at(std::size_t level, const PatchWarp& here);
   [[nodiscard]] std::optional<Found> descend(const Eigen::Vector2d& u1, const FlowGuess& guess);
   [[nodiscard]] bool returns(const Eigen::Vector2d& u1, const FlowGuess& guess,
                              const PatchWarp& found) const;
@@ -55,8 +65,9 @@ class PatchFlow {
   std::array<int, kMaxLevels> state_{};  ///< 0 not made, 1 usable, −1 not usable
 };
 
-/// The patch at level 0 in the smallest window that determines its affinity well.
+/// The patch at level 0 in the smallest window, not smaller than the one given, that determines its
+/// affinity well.
 [[nodiscard]] bool anchor_adapted(const ImagePyramid& image, const Eigen::Vector2d& u,
-                                  AnchoredPatch& patch);
+                                  AnchoredPatch& patch, std::size_t window = 0);
 
 }  // namespace oneac::internal

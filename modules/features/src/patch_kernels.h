@@ -56,12 +56,16 @@ struct AlignmentSums {
 
 /// The loops over samples, compiled once per instruction set.
 struct PatchKernels {
-  /// Samples image and gradient at the grid (A must be the identity) and normalises.
+  /// Samples image and gradient (per pixel of the window) at the grid and normalises.
   void (*make_template)(const SampleGrid& grid, const PatchWindow& window, PatchTemplate& patch);
   /// r = (image − bias) / gain − template, into `residual`, and the sums with the given weights.
   void (*residuals)(const SampleGrid& grid, const PatchWindow& window, const PatchTemplate& patch,
                     const float* weight, float gain, float bias, float* residual,
                     AlignmentSums& sums);
+  /// The same with the window's weights for shift, gain and bias only, faster: the sums for A and
+  /// the absolute ones are 0. A must be the identity, the window one of padded rows.
+  void (*shift_residuals)(const SampleGrid& grid, const PatchWindow& window,
+                          const PatchTemplate& patch, float gain, float bias, AlignmentSums& sums);
   /// Σ w J Jᵀ, upper triangle row by row: 36 and 10 numbers.
   void (*affine_normal)(const PatchWindow& window, const PatchTemplate& patch, const float* weight,
                         float* upper);

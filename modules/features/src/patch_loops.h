@@ -1,6 +1,6 @@
 #pragma once
 
-#include "patch_template_loops.h"
+#include "patch_normal_loops.h"
 
 // The kernels of patch_kernels.h for one width. A slice is what one register sees of each group of
 // kPatchLanes samples; slices are worked off one after the other, so that partial sums stay in
@@ -50,56 +50,43 @@ inline void residuals(const SampleGrid& grid, const PatchWindow& window, const P
   out.absolute = sums[9];
 }
 
-/// Σ w J Jᵀ for J given sample by sample: jacobian(i, J) fills kCount registers.
-template <std::size_t kCount, class Jacobian>
-inline void normal_matrix(const PatchWindow& window, const float* weight, float* upper,
-                          const Jacobian& jacobian) {
-  constexpr std::size_t kSums = kCount * (kCount + 1) / 2;
-  PartialSums<kSums> sums;
+inline void shift_residuals(const SampleGrid& grid, const PatchWindow& window,
+                            const PatchTemplate& patch, float gain, float bias,
+                            AlignmentSums& out) {
+  const ShiftedRows rows(grid, static_cast<int>(window.rows / 2));
+  PartialSums<5> sums;
+  const float inverse_gain = 1.0F / gain;
+  const std::size_t width = window.row_size[0];
   for (std::size_t slice = 0; slice < kPatchLanes; slice += kWidth) {
-    Floats partial[kSums] = {};
-    for (std::size_t i = slice; i < window.size; i += kPatchLanes) {
-      Floats J[kCount];
-      jacobian(i, J);
-      const Floats w = load(weight + i);
-      std::size_t k = 0;
-      for (std::size_t row = 0; row < kCount; ++row) {
-        const Floats weighted = w * J[row];
-        for (std::size_t column = row; column < kCount; ++column) {
-          partial[k++] += weighted * J[column];
-        }
+    Floats u = {}, v = {}, g = {}, b = {}, squares = {};
+    for (std::size_t x = slice; x < width; x += kPatchLanes) {
+      Floats top = rows.along(0, x);
+      for (std::size_t y = 0; y < window.rows; ++y) {
+        const Floats bottom = rows.along(y + 1, x);
+        const std::size_t i = y * width + x;
+        const Floats value = load(patch.value + i);
+        const Floats r = (rows.between(top, bottom) - bias) * inverse_gain - value;
+        const Floats wr = load(window.weight + i) * r;
+        u += wr * load(patch.gx + i);
+        v += wr * load(patch.gy + i);
+        g += wr * value;
+        b += wr;
+        squares += wr * r;
+        top = bottom;
       }
     }
-    for (std::size_t k = 0; k < kSums; ++k) sums.keep(k, slice, partial[k]);
+    sums.keep(0, slice, u);
+    sums.keep(1, slice, v);
+    sums.keep(2, slice, g);
+    sums.keep(3, slice, b);
+    sums.keep(4, slice, squares);
   }
-  for (std::size_t k = 0; k < kSums; ++k) upper[k] = sums[k];
-}
-
-inline void affine_normal(const PatchWindow& window, const PatchTemplate& patch,
-                          const float* weight, float* upper) {
-  const float inverse_radius = 1.0F / window.radius;
-  normal_matrix<kAffineParameters>(window, weight, upper, [&](std::size_t i, Floats* J) {
-    const Floats x = load(window.x + i) * inverse_radius, y = load(window.y + i) * inverse_radius;
-    const Floats gx = load(patch.gx + i), gy = load(patch.gy + i);
-    J[0] = gx * x;
-    J[1] = gx * y;
-    J[2] = gy * x;
-    J[3] = gy * y;
-    J[4] = gx;
-    J[5] = gy;
-    J[6] = load(patch.value + i);
-    J[7] = Floats{} + 1.0F;
-  });
-}
-
-inline void translation_normal(const PatchWindow& window, const PatchTemplate& patch,
-                               const float* weight, float* upper) {
-  normal_matrix<kTranslationParameters>(window, weight, upper, [&](std::size_t i, Floats* J) {
-    J[0] = load(patch.gx + i);
-    J[1] = load(patch.gy + i);
-    J[2] = load(patch.value + i);
-    J[3] = Floats{} + 1.0F;
-  });
+  for (std::size_t k = 0; k < 4; ++k) {
+    out.gradient[k] = 0.0F;
+    out.gradient[4 + k] = sums[k];
+  }
+  out.squares = sums[4];
+  out.absolute = 0.0F;
 }
 
 inline void tukey(const PatchWindow& window, const float* residual, float inverse_c,
@@ -111,8 +98,8 @@ inline void tukey(const PatchWindow& window, const float* residual, float invers
   }
 }
 
-constexpr PatchKernels kLoops{&make_template, &residuals, &affine_normal, &translation_normal,
-                              &tukey};
+constexpr PatchKernels kLoops{&make_template, &residuals,          &shift_residuals,
+                              &affine_normal, &translation_normal, &tukey};
 
 }  // namespace
 }  // namespace oneac::internal

@@ -36,10 +36,31 @@ PatchWindow round_window(double radius) {
   return window;
 }
 
+PatchWindow padded_window(double radius) {
+  PatchWindow window;
+  window.radius = static_cast<float>(radius);
+  const int reach = static_cast<int>(std::floor(radius));
+  const auto side = 2 * static_cast<std::size_t>(reach) + 1;
+  const std::size_t width = (side + kPatchLanes - 1) / kPatchLanes * kPatchLanes;
+  for (int y = -reach; y <= reach; ++y) {
+    for (int x = -reach; x < static_cast<int>(width) - reach; ++x) {
+      const double share = (x * x + y * y) / (radius * radius);
+      const float weight = share <= 1.0 ? static_cast<float>(1.0 - 0.5 * share) : 0.0F;
+      window.x[window.size] = static_cast<float>(x);
+      window.y[window.size] = static_cast<float>(y);
+      window.weight[window.size++] = weight;
+      window.weight_sum += weight;
+    }
+    window.row_begin[window.rows] = 1;
+    window.row_size[window.rows++] = width;
+  }
+  return window;
+}
+
 std::optional<SampleGrid> place(const ImagePyramid& pyramid, std::size_t level,
                                 const PatchWarp& warp, double radius, double margin) {
   const PyramidLevel& image = pyramid.levels[level];
-  const double scale = std::ldexp(1.0, -static_cast<int>(level));
+  const double scale = 1.0 / level_scale(level);
   const Eigen::Vector2d centre = warp.centre * scale;
   const Eigen::Vector2d reach = radius * warp.M.rowwise().norm();
   if (!(reach.maxCoeff() < kMaxReach)) return std::nullopt;

@@ -17,7 +17,7 @@ constexpr double kNearFactor = 3.0;
 
 std::vector<double> shifts_of_sample(const std::vector<KltTrack>& tracks, const ImagePyramid& first,
                                      const ImagePyramid& second, std::size_t& asked) {
-  static const PatchWindow window = round_window(kRadius);
+  static const PatchWindow window = padded_window(kRadius);
   const std::size_t step = std::max<std::size_t>(1, tracks.size() / kSample);
   std::vector<double> shifts;
   AnchoredPatch patch;

@@ -42,11 +42,31 @@ struct Outcome {
       keep(&sums.absolute, 1);
       kernels.tukey(window, residual, 4.0F, weight);
       keep(weight, window.size);
+      kernels.make_template(*place(two, 0, there, radius + 1.0, 0.0), window, patch);
+      keep(patch.value, window.size);
+      keep(patch.gx, window.size);
+      keep(patch.gy, window.size);
+      keep_shift(kernels, one, two, here, there);
       float upper[36];
       kernels.affine_normal(window, patch, weight, upper);
       keep(upper, 36);
       kernels.translation_normal(window, patch, weight, upper);
       keep(upper, 10);
+    }
+  }
+
+  void keep_shift(const PatchKernels& kernels, const ImagePyramid& one, const ImagePyramid& two,
+                  const PatchWarp& here, const PatchWarp& there) {
+    for (const double radius : {6.0, 8.0}) {
+      const PatchWindow window = padded_window(radius);
+      PatchTemplate patch{};
+      kernels.make_template(*place(two, 0, there, radius + 1.0, 0.0), window, patch);
+      keep(patch.value, window.size);
+      AlignmentSums sums;
+      kernels.shift_residuals(*place(one, 0, here, radius, 0.0), window, patch, patch.contrast,
+                              patch.mean, sums);
+      keep(sums.gradient, kAffineParameters);
+      keep(&sums.squares, 1);
     }
   }
 
@@ -71,6 +91,72 @@ TEST(PatchKernels, GiveTheSameBytesAtEveryLevel) {
   }
 }
 
+TEST(PatchKernels, GiveTheSameSumsForAShiftAsForAllParameters) {
+  const auto pyramid = build_pyramid(render(Texture(23), View{}).view(), 2);
+  PatchWarp here, there;
+  here.centre = {150.25, 140.5};
+  there.centre = {151.0, 140.1};
+  for (const double radius : {6.0, 8.0, 9.0}) {
+    const PatchWindow window = padded_window(radius);
+    PatchTemplate patch{};
+    const PatchKernels& kernels = patch_kernels();
+    kernels.make_template(*place(pyramid, 0, here, radius + 1.0, 0.0), window, patch);
+    const SampleGrid grid = *place(pyramid, 0, there, radius, 0.0);
+    AlignmentSums all, shift;
+    alignas(64) float residual[kMaxSamples];
+    kernels.residuals(grid, window, patch, window.weight, patch.contrast, patch.mean, residual,
+                      all);
+    kernels.shift_residuals(grid, window, patch, patch.contrast, patch.mean, shift);
+    for (std::size_t k = 4; k < kAffineParameters; ++k) {
+      EXPECT_NEAR(shift.gradient[k], all.gradient[k], 1e-3) << k;
+    }
+    EXPECT_NEAR(shift.squares, all.squares, 1e-3);
+  }
+}
+
+TEST(PatchKernels, WarpTheTemplateAsTheResidualsWarpTheImage) {
+  const auto pyramid = build_pyramid(render(Texture(24), View{}).view(), 2);
+  const PatchWindow window = round_window(6.0);
+  PatchWarp here;
+  here.centre = {150.25, 140.5};
+  here.M << 1.1, 0.1, -0.05, 0.9;
+  PatchTemplate patch{};
+  const PatchKernels& kernels = patch_kernels();
+  kernels.make_template(*place(pyramid, 1, here, 7.0, 0.0), window, patch);
+  AlignmentSums sums;
+  alignas(64) float residual[kMaxSamples];
+  kernels.residuals(*place(pyramid, 1, here, 6.0, 0.0), window, patch, window.weight,
+                    patch.contrast, patch.mean, residual, sums);
+  EXPECT_NEAR(sums.squares / window.weight_sum, 0.0, 1e-6);
+}
+
+TEST(PatchKernels, SumTheNormalMatrixOfAllParameters) {
+  const auto pyramid = build_pyramid(render(Texture(25), View{}).view(), 2);
+  const PatchWindow window = round_window(8.0);
+  PatchWarp here;
+  here.centre = {150.25, 140.5};
+  PatchTemplate patch{};
+  patch_kernels().make_template(*place(pyramid, 0, here, 9.0, 0.0), window, patch);
+  double expected[kAffineParameters][kAffineParameters] = {};
+  for (std::size_t i = 0; i < window.size; ++i) {
+    const double x = window.x[i] / 8.0, y = window.y[i] / 8.0, gx = patch.gx[i], gy = patch.gy[i];
+    const double J[] = {gx * x, gx * y, gy * x, gy * y, gx, gy, patch.value[i], 1.0};
+    for (std::size_t row = 0; row < kAffineParameters; ++row) {
+      for (std::size_t column = 0; column < kAffineParameters; ++column) {
+        expected[row][column] += static_cast<double>(window.weight[i]) * J[row] * J[column];
+      }
+    }
+  }
+  float upper[36];
+  patch_kernels().affine_normal(window, patch, window.weight, upper);
+  std::size_t k = 0;
+  for (std::size_t row = 0; row < kAffineParameters; ++row) {
+    for (std::size_t column = row; column < kAffineParameters; ++column) {
+      EXPECT_NEAR(upper[k++], expected[row][column], 1e-3) << row << ' ' << column;
+    }
+  }
+}
+
 TEST(PatchKernels, NormaliseTheTemplate) {
   const auto pyramid = build_pyramid(render(Texture(22), View{}).view(), 2);
   const PatchWindow window = round_window(11.0);
@@ -87,6 +173,12 @@ TEST(PatchKernels, NormaliseTheTemplate) {
   }
   EXPECT_NEAR(sum / weights, 0.0, 1e-5);
   EXPECT_NEAR(squares / weights, 1.0, 1e-4);
+}
+
+TEST(PatchWindow, OfPaddedRowsWeighsLikeTheRoundOne) {
+  const PatchWindow round = round_window(6.0), padded = padded_window(6.0);
+  EXPECT_EQ(padded.size, 13U * kPatchLanes);
+  EXPECT_NEAR(padded.weight_sum, round.weight_sum, 1e-4);
 }
 
 TEST(PatchWindow, HasTheSamplesOfADisc) {

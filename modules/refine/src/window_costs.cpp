@@ -137,37 +137,53 @@ bool AnchorCost<LandmarkSize>::Evaluate(double const* const* blocks, double* res
   return true;
 }
 
-bool PlanarMotionCost::Evaluate(double const* const* blocks, double* residuals,
-                                double** jacobians) const {
+Eigen::Vector3d planar_residuals(const PlanarPrior& prior, const RelativePose& first,
+                                 const RelativePose& second) {
   using Vector3 = Eigen::Map<const Eigen::Vector3d>;
-  const RelativePose first = load_pose(blocks[0]);
-  const RelativePose second = load_pose(blocks[1]);
-  const Vector3 down(prior_.down), right(prior_.right), ahead(prior_.ahead);
+  const Vector3 down(prior.down), right(prior.right), ahead(prior.ahead);
   // Where the second camera is, seen by the first; and the first's gravity seen by the second.
   const Eigen::Vector3d centre = -(second.R.transpose() * second.t);
-  const Eigen::Vector3d turned = first.R * centre;
+  const Eigen::Vector3d gravity = second.R * (first.R.transpose() * down);
+  return {down.dot(first.R * centre + first.t) / prior.sigma_travel,
+          ahead.dot(gravity) / prior.sigma_rotation, right.dot(gravity) / prior.sigma_rotation};
+}
+
+PlanarDerivative planar_derivative(const PlanarPrior& prior, const RelativePose& first,
+                                   const RelativePose& second) {
+  using Vector3 = Eigen::Map<const Eigen::Vector3d>;
+  const Vector3 down(prior.down), right(prior.right), ahead(prior.ahead);
+  const Eigen::Vector3d turned = first.R * -(second.R.transpose() * second.t);
   const Eigen::Matrix3d R = second.R * first.R.transpose();
   const Eigen::Vector3d gravity = R * down;
-  residuals[0] = down.dot(turned + first.t) / prior_.sigma_travel;
-  residuals[1] = ahead.dot(gravity) / prior_.sigma_rotation;
-  residuals[2] = right.dot(gravity) / prior_.sigma_rotation;
-  if (jacobians == nullptr) return true;
-  Eigen::Matrix<double, 3, 6> d1 = Eigen::Matrix<double, 3, 6>::Zero();
-  Eigen::Matrix<double, 3, 6> d2 = Eigen::Matrix<double, 3, 6>::Zero();
+  PlanarDerivative d{Eigen::Matrix<double, 3, 6>::Zero(), Eigen::Matrix<double, 3, 6>::Zero()};
   const Eigen::Matrix3d down_x = cross_matrix(down);
   const Eigen::Matrix3d gravity_x = cross_matrix(gravity);
-  d1.row(0) << -down.transpose() * cross_matrix(turned), down.transpose();
+  d.first.row(0) << -down.transpose() * cross_matrix(turned), down.transpose();
   // t ← t + v moves the centre by −Rᵀ v; R ← exp([w]) R by −Rᵀ [t]× … of t: −(exp R)ᵀ t.
-  const Eigen::Matrix3d to_first = first.R * second.R.transpose();
-  d2.row(0) << -down.transpose() * to_first * cross_matrix(second.t), -down.transpose() * to_first;
-  d1.row(1).head<3>() = ahead.transpose() * R * down_x;
-  d1.row(2).head<3>() = right.transpose() * R * down_x;
-  d2.row(1).head<3>() = -ahead.transpose() * gravity_x;
-  d2.row(2).head<3>() = -right.transpose() * gravity_x;
-  const Eigen::Vector3d scale(1.0 / prior_.sigma_travel, 1.0 / prior_.sigma_rotation,
-                              1.0 / prior_.sigma_rotation);
-  store_pose_jacobian<3>(scale.asDiagonal() * d1, jacobians[0]);
-  store_pose_jacobian<3>(scale.asDiagonal() * d2, jacobians[1]);
+  const Eigen::Matrix3d to_first = R.transpose();
+  d.second.row(0) << -down.transpose() * to_first * cross_matrix(second.t),
+      -down.transpose() * to_first;
+  d.first.row(1).head<3>() = ahead.transpose() * R * down_x;
+  d.first.row(2).head<3>() = right.transpose() * R * down_x;
+  d.second.row(1).head<3>() = -ahead.transpose() * gravity_x;
+  d.second.row(2).head<3>() = -right.transpose() * gravity_x;
+  const Eigen::Vector3d scale(1.0 / prior.sigma_travel, 1.0 / prior.sigma_rotation,
+                              1.0 / prior.sigma_rotation);
+  d.first = scale.asDiagonal() * d.first;
+  d.second = scale.asDiagonal() * d.second;
+  return d;
+}
+
+bool PlanarMotionCost::Evaluate(double const* const* blocks, double* residuals,
+                                double** jacobians) const {
+  const RelativePose first = load_pose(blocks[0]);
+  const RelativePose second = load_pose(blocks[1]);
+  const Eigen::Vector3d r = planar_residuals(prior_, first, second);
+  std::copy_n(r.data(), 3, residuals);
+  if (jacobians == nullptr) return true;
+  const PlanarDerivative d = planar_derivative(prior_, first, second);
+  store_pose_jacobian<3>(d.first, jacobians[0]);
+  store_pose_jacobian<3>(d.second, jacobians[1]);
   return true;
 }
 

@@ -69,6 +69,17 @@ struct PlanarPrior {
   double sigma_rotation;  ///< [rad]
 };
 
+/// What it says about two poses.
+[[nodiscard]] Eigen::Vector3d planar_residuals(const PlanarPrior& prior, const RelativePose& first,
+                                               const RelativePose& second);
+/// ∂(residuals)/∂(w, v) of both poses.
+struct PlanarDerivative {
+  Eigen::Matrix<double, 3, 6> first, second;
+};
+[[nodiscard]] PlanarDerivative planar_derivative(const PlanarPrior& prior,
+                                                 const RelativePose& first,
+                                                 const RelativePose& second);
+
 /// Residuals of the prior. Blocks: first and second pose.
 class PlanarMotionCost final : public ceres::SizedCostFunction<3, 7, 7> {
  public:

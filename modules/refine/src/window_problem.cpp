@@ -20,15 +20,29 @@ ceres::Problem::Options borrowing() {
   return options;
 }
 
-/// False for an observation of a point behind the view: Ceres refuses a start that it cannot
-/// evaluate.
+}  // namespace
+
 bool is_in_front(const SlidingWindow& window, const WindowObservation& seen) {
   const WindowLandmark& landmark = window.landmarks[seen.landmark];
   const RelativePose& anchor = window.views[landmark.anchor].T_view_map;
   return PatchTransfer(anchor, window.views[seen.view].T_view_map, landmark).in_front();
 }
 
-}  // namespace
+PlanarPrior planar_prior(const SlidingWindow& window, std::size_t view,
+                         const WindowRefineOptions& options) {
+  const RelativePose T =
+      window.views[view + 1].T_view_map * window.views[view].T_view_map.inverse();
+  PlanarPrior prior{};
+  for (int axis = 0; axis < 3; ++axis) {
+    prior.right[axis] = window.R_level_cam(0, axis);
+    prior.down[axis] = window.R_level_cam(1, axis);
+    prior.ahead[axis] = window.R_level_cam(2, axis);
+  }
+  prior.sigma_travel =
+      std::max(T.t.norm() * options.travel_elevation_deg * kDegree, kShortestTravel);
+  prior.sigma_rotation = options.suspension_deg * kDegree;
+  return prior;
+}
 
 double point_sigma(const WindowObservation& seen, const SlidingWindow& window,
                    const WindowRefineOptions& options) {
@@ -112,17 +126,8 @@ void WindowProblem::add_planar_priors(const SlidingWindow& window,
                                       const WindowRefineOptions& options) {
   for (std::size_t i = 0; i + 1 < window.views.size(); ++i) {
     if (window.views[i].fixed && window.views[i + 1].fixed) continue;
-    const RelativePose T = window.views[i + 1].T_view_map * window.views[i].T_view_map.inverse();
-    PlanarPrior prior{};
-    for (int axis = 0; axis < 3; ++axis) {
-      prior.right[axis] = window.R_level_cam(0, axis);
-      prior.down[axis] = window.R_level_cam(1, axis);
-      prior.ahead[axis] = window.R_level_cam(2, axis);
-    }
-    prior.sigma_travel =
-        std::max(T.t.norm() * options.travel_elevation_deg * kDegree, kShortestTravel);
-    prior.sigma_rotation = options.suspension_deg * kDegree;
-    problem_.AddResidualBlock(new PlanarMotionCost(prior), nullptr, pose(i), pose(i + 1));
+    problem_.AddResidualBlock(new PlanarMotionCost(planar_prior(window, i, options)), nullptr,
+                              pose(i), pose(i + 1));
   }
 }
 

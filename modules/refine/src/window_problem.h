@@ -13,7 +13,8 @@
 
 namespace oneac {
 
-/// The Ceres problem of a window; owns the numbers that Ceres works on.
+/// The Ceres problem of a window, affinities included when asked; owns the numbers that Ceres works
+/// on.
 class WindowProblem {
  public:
   WindowProblem(const SlidingWindow& window, const WindowRefineOptions& options);
@@ -48,5 +49,12 @@ class WindowProblem {
                                  const WindowRefineOptions& options);
 [[nodiscard]] double affine_sigma(const WindowObservation& seen,
                                   const WindowRefineOptions& options);
+
+/// False for an observation of a point behind the view: it cannot be evaluated at the start.
+[[nodiscard]] bool is_in_front(const SlidingWindow& window, const WindowObservation& seen);
+
+/// The prior between a view and the next one, for the poses that they have.
+[[nodiscard]] PlanarPrior planar_prior(const SlidingWindow& window, std::size_t view,
+                                       const WindowRefineOptions& options);
 
 }  // namespace oneac

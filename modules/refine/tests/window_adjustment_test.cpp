@@ -1,0 +1,83 @@
+#include "window_adjustment.h"
+
+#include "window_problem.h"
+#include "window_scenes.h"
+
+#include <cstddef>
+
+namespace oneac::test {
+namespace {
+
+constexpr double kToTheEnd = 1e-13;
+
+WindowRefineOptions patient() {
+  WindowRefineOptions options;
+  options.max_iterations = 100;
+  return options;
+}
+
+/// Every fifth observation of a view other than the anchor is off by some pixels.
+SlidingWindow spoilt_window(std::uint64_t seed) {
+  SceneGenerator generator(seed);
+  const WindowScene scene = street_window(generator, 6, 120, {0.3, 0.05});
+  SlidingWindow window = disturbed_window(generator, scene.truth);
+  for (std::size_t i = 0; i < window.observations.size(); i += 5) {
+    WindowObservation& seen = window.observations[i];
+    if (seen.view == window.landmarks[seen.landmark].anchor) continue;
+    seen.x += Eigen::Vector2d(5.0, -4.0) / window.focal_px;
+  }
+  return window;
+}
+
+TEST(WindowAdjustment, MeetsTheMinimumThatCeresFinds) {
+  for (const std::uint64_t seed : {91U, 92U, 93U}) {
+    SlidingWindow ours = spoilt_window(seed);
+    SlidingWindow theirs = ours;
+    WindowProblem problem(theirs, patient());
+    const ceres::Solver::Summary summary = problem.solve(100, kToTheEnd);
+    problem.store(theirs);
+    const WindowRefineResult result = adjust_points(ours, patient(), kToTheEnd);
+    ASSERT_TRUE(result.usable);
+    EXPECT_NEAR(result.initial_cost, summary.initial_cost, 1e-9 * summary.initial_cost);
+    EXPECT_NEAR(result.final_cost, summary.final_cost, 1e-6 * summary.final_cost);
+    for (std::size_t i = 0; i < ours.views.size(); ++i) {
+      const RelativePose& a = ours.views[i].T_view_map;
+      const RelativePose& b = theirs.views[i].T_view_map;
+      EXPECT_LT((a.R - b.R).norm(), 1e-5) << "view " << i;
+      EXPECT_LT((a.t - b.t).norm(), 1e-4) << "view " << i;
+    }
+  }
+}
+
+TEST(WindowAdjustment, NeverRaisesItsCostAndKeepsRotationsOrthonormal) {
+  SlidingWindow window = spoilt_window(94);
+  WindowRefineOptions one_step;
+  one_step.max_iterations = 1;
+  double last = 0.0;
+  for (int step = 0; step < 8; ++step) {
+    const WindowRefineResult result = adjust_points(window, one_step, 0.0);
+    ASSERT_TRUE(result.usable);
+    EXPECT_LE(result.final_cost, result.initial_cost);
+    last = result.final_cost;
+  }
+  EXPECT_GT(last, 0.0);
+  for (const WindowView& view : window.views) {
+    const Eigen::Matrix3d& R = view.T_view_map.R;
+    EXPECT_LT((R * R.transpose() - Eigen::Matrix3d::Identity()).norm(), 1e-12);
+  }
+}
+
+TEST(WindowAdjustment, LeavesAWindowOfSingleSightingsAlone) {
+  SlidingWindow window = spoilt_window(95);
+  for (WindowObservation& seen : window.observations) {
+    seen.view = window.landmarks[seen.landmark].anchor;
+  }
+  const SlidingWindow before = window;
+  EXPECT_FALSE(adjust_points(window, {}, kToTheEnd).usable);
+  for (std::size_t i = 0; i < window.landmarks.size(); ++i) {
+    EXPECT_EQ(window.landmarks[i].inverse_depth, before.landmarks[i].inverse_depth);
+  }
+}
+
+}  // namespace
+}  // namespace oneac::test
