@@ -14,9 +14,9 @@ namespace {
 // Iterations before the first local optimisation of a solver whose model is exact: the first few
 // best models are soon beaten. The authors' program has 20.
 constexpr std::size_t kBeforeFirstOptimisation = 20;
-// Refits go from this multiple of the threshold down to it by halves (Chum, Matas, Kittler,
+// Refits go from the first multiple of the threshold down to it by halves (Chum, Matas, Kittler,
 // "Locally optimized RANSAC", 2003): a planar model misses by the suspension's pitch, 0.3° is 4 px.
-constexpr double kWidest = 4.0;
+constexpr double kWidths[] = {4.0, 2.0};
 // A refit that gains less than half an inlier's cost ends a local optimisation.
 constexpr double kWorthwhile = 0.5;
 
@@ -107,7 +107,7 @@ class Loop {
   /// The model refitted to the points within a narrowing threshold, where that is better.
   Scored narrowed(const Scored& start, int way) {
     Eigen::Matrix3d model = start.model;
-    for (double wide = kWidest; wide > 1.0; wide /= 2.0) {
+    for (const double wide : kWidths) {
       space_.squared_errors(model, errors_);
       labels_.resize(errors_.size());
       for (std::size_t i = 0; i < errors_.size(); ++i) labels_[i] = errors_[i] <= wide * wide;

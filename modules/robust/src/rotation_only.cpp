@@ -47,13 +47,15 @@ RotationEquations equations(const Eigen::Matrix3d& R, AcSpan acs, double scale) 
 
 /// Steps at scales first, first/2, … 1 threshold.
 Eigen::Matrix3d descend(Eigen::Matrix3d R, AcSpan acs, double threshold, double first_scale) {
-  for (double scale = first_scale; scale >= 1.0; scale /= 2.0) {
+  double scale = first_scale;
+  while (scale >= 1.0) {
     for (int i = 0; i < kIterationsPerScale; ++i) {
       const RotationEquations e = equations(R, acs, scale * threshold);
       const Eigen::Vector3d step = -e.H.ldlt().solve(e.g);
       if (!step.allFinite()) return R;
       R = rotation_from_vector(step) * R;
     }
+    scale /= 2.0;
   }
   return R;
 }

@@ -11,9 +11,9 @@ namespace oneac {
 
 /// What a robust estimate amounts to.
 enum class PoseStatus {
-  kOk,            ///< pose with a direction of translation
-  kOnePlane,      ///< the same, but all inliers lie on one plane: two poses explain the points alike
-                  ///< and the one nearer to a vehicle's motion was taken
+  kOk,        ///< pose with a direction of translation
+  kOnePlane,  ///< the same, but all inliers lie on one plane: two poses explain the points alike
+              ///< and the one nearer to a vehicle's motion was taken
   kPureRotation,  ///< the camera turned or rocked without travelling: R ≠ I, t = 0
   kNoMotion,      ///< the camera stood: R = I, t = 0
   kTooFew,        ///< too few correspondences or inliers: no pose
