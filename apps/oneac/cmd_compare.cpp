@@ -1,6 +1,7 @@
 #include "commands.h"
 #include "compare_outputs.h"
 #include "interrupt.h"
+#include "key_flags.h"
 #include "progress_bar.h"
 #include "run_options.h"
 
@@ -37,15 +38,6 @@ struct CompareFlags {
   bool no_progress = false;
   bool quiet = false;
 };
-
-/// A flag that is also a key: it is kept as a setting and applied last.
-void add_key(CLI::App* verb, const std::string& flag, const std::string& key, CompareFlags& flags,
-             const std::string& help) {
-  verb->add_option_function<std::string>(
-      flag,
-      [&flags, key](const std::string& value) { flags.settings.push_back(key + "=" + value); },
-      help);
-}
 
 /// What the methods are configured with: their sections of the front-end's parameters.
 std::string method_parameters(FrontEndOptions options) {
@@ -147,18 +139,11 @@ void run(CompareFlags& flags) {
   }
 }
 
-void add_selection(CLI::App* verb, CompareFlags& flags) {
-  add_key(verb, "--features", "front_end.features.extractor", flags, "extractor of the ACs");
-  add_key(verb, "--images-dir", "source.images_dir", flags, "folder of the external images");
-  add_key(verb, "--camera", "source.camera", flags, "left, right or a sensor label");
-  add_key(verb, "--calibration", "source.calibration", flags,
-          "FILE[:SECTION] instead of the log's");
-  add_key(verb, "--first", "source.first", flags, "first image to use, from 0");
-  add_key(verb, "--count", "source.count", flags, "images to use at most; 0: all");
-  add_key(verb, "--every", "source.every", flags, "use every K-th image");
-  add_key(verb, "--reference", "run.reference", flags, "true poses of the only log");
-  add_key(verb, "--seed", "run.seed", flags, "of the first trial; the next has one more");
-  add_key(verb, "--threads", "run.threads", flags, "pairs at once, one thread each");
+void add_keys(CLI::App* verb, CompareFlags& flags) {
+  add_selection(*verb, flags.settings);
+  add_key(*verb, "--reference", "run.reference", flags.settings, "true poses of the only log");
+  add_key(*verb, "--seed", "run.seed", flags.settings, "of the first trial; the next has one more");
+  add_key(*verb, "--threads", "run.threads", flags.settings, "pairs at once, one thread each");
 }
 
 }  // namespace
@@ -185,7 +170,7 @@ void add_compare(CLI::App& program) {
       ->allow_extra_args(false);
   verb->add_option("--set", flags->settings, "section.key=value, any key of params/default.yaml")
       ->allow_extra_args(false);
-  add_selection(verb, *flags);
+  add_keys(verb, *flags);
   verb->add_flag("--no-progress", flags->no_progress, "no progress bar");
   verb->add_flag("--quiet", flags->quiet, "no progress bar, notes or warnings");
   verb->callback([flags] { run(*flags); });

@@ -2,6 +2,7 @@
 #include "feature_pictures.h"
 #include "feature_statistics.h"
 #include "interrupt.h"
+#include "key_flags.h"
 #include "run_drive.h"
 #include "run_options.h"
 #include "run_outputs.h"
@@ -29,14 +30,6 @@ struct FeaturesFlags {
   std::size_t picture_every = 50;  // five seconds at the usual 10 Hz
   bool no_progress = false;
 };
-
-void add_key(CLI::App* verb, const std::string& flag, const std::string& key, FeaturesFlags& flags,
-             const std::string& help) {
-  verb->add_option_function<std::string>(
-      flag,
-      [&flags, key](const std::string& value) { flags.settings.push_back(key + "=" + value); },
-      help);
-}
 
 fs::path picture_name(const fs::path& folder, std::size_t index) {
   char name[32];
@@ -102,16 +95,8 @@ void add_features(CLI::App& program) {
   verb->add_option("--set", flags->settings, "section.key=value, any key of params/default.yaml")
       ->allow_extra_args(false);
   verb->add_option("--picture-every", flags->picture_every, "draw the tracks of every K-th pair");
-  add_key(verb, "--features", "front_end.features.extractor", *flags,
-          "klt, vlfeat, vlfeat+align or sift");
-  add_key(verb, "--images-dir", "source.images_dir", *flags, "folder of the external images");
-  add_key(verb, "--camera", "source.camera", *flags, "left, right or a sensor label");
-  add_key(verb, "--calibration", "source.calibration", *flags,
-          "FILE[:SECTION] instead of the log's");
-  add_key(verb, "--first", "source.first", *flags, "first image to use, from 0");
-  add_key(verb, "--count", "source.count", *flags, "images to use at most; 0: all");
-  add_key(verb, "--every", "source.every", *flags, "use every K-th image");
-  add_key(verb, "--threads", "run.threads", *flags, "images prepared at once");
+  add_selection(*verb, flags->settings);
+  add_key(*verb, "--threads", "run.threads", flags->settings, "images prepared at once");
   verb->add_flag("--no-progress", flags->no_progress, "no progress bar");
   verb->callback([flags] { run(*flags); });
 }

@@ -1,5 +1,6 @@
 #include "commands.h"
 #include "interrupt.h"
+#include "key_flags.h"
 #include "run_drive.h"
 #include "run_gui.h"
 #include "run_options.h"
@@ -31,15 +32,6 @@ struct RunFlags {
   bool quiet = false;
   bool gui = false;
 };
-
-/// A flag that is also a key: it is kept as a setting and applied last.
-void add_key(CLI::App* verb, const std::string& flag, const std::string& key, RunFlags& flags,
-             const std::string& help) {
-  verb->add_option_function<std::string>(
-      flag,
-      [&flags, key](const std::string& value) { flags.settings.push_back(key + "=" + value); },
-      help);
-}
 
 void write_all(const DriveRecord& record, RunOptions& options, double wall_seconds) {
   const std::filesystem::path folder(options.output);
@@ -96,17 +88,12 @@ void add_run(CLI::App& program) {
       ->allow_extra_args(false);
   verb->add_option("--set", flags->settings, "section.key=value, any key of params/default.yaml")
       ->allow_extra_args(false);
-  add_key(verb, "--initialiser", "front_end.initialiser", *flags, "method of the relative pose");
-  add_key(verb, "--images-dir", "source.images_dir", *flags, "folder of the external images");
-  add_key(verb, "--camera", "source.camera", *flags, "left, right or a sensor label");
-  add_key(verb, "--calibration", "source.calibration", *flags,
-          "FILE[:SECTION] instead of the log's");
-  add_key(verb, "--first", "source.first", *flags, "first image to use, from 0");
-  add_key(verb, "--count", "source.count", *flags, "images to use at most; 0: all");
-  add_key(verb, "--every", "source.every", *flags, "use every K-th image");
-  add_key(verb, "--reference", "run.reference", *flags, "true poses, KITTI or TUM");
-  add_key(verb, "--seed", "run.seed", *flags, "seed of methods that draw random numbers");
-  add_key(verb, "--threads", "run.threads", *flags, "images prepared at once");
+  add_key(*verb, "--initialiser", "front_end.initialiser", flags->settings,
+          "method of the relative pose");
+  add_selection(*verb, flags->settings);
+  add_key(*verb, "--reference", "run.reference", flags->settings, "true poses, KITTI or TUM");
+  add_key(*verb, "--seed", "run.seed", flags->settings, "seed of methods that draw random numbers");
+  add_key(*verb, "--threads", "run.threads", flags->settings, "images prepared at once");
   verb->add_flag("--gui", flags->gui, "show the drive in a window while it is computed");
   verb->add_flag("--no-progress", flags->no_progress, "no progress bar");
   verb->add_flag("--quiet", flags->quiet, "no progress bar, notes or warnings");

@@ -4,6 +4,7 @@
 #include "text.h"
 
 #include "oneac/comparison/plots.h"
+#include "oneac/evaluation/html_page.h"
 
 #include <algorithm>
 #include <limits>
@@ -12,7 +13,6 @@ namespace oneac {
 namespace {
 
 using internal::decimals;
-using internal::html_escaped;
 using internal::three_digits;
 
 constexpr double kDegree = 3.14159265358979323846 / 180.0;

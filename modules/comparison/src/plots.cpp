@@ -2,6 +2,8 @@
 
 #include "text.h"
 
+#include "oneac/evaluation/html_page.h"
+
 #include <algorithm>
 #include <cmath>
 
@@ -9,7 +11,6 @@ namespace oneac {
 namespace {
 
 using internal::decimals;
-using internal::html_escaped;
 
 // Layout [px].
 constexpr double kWidth = 520.0, kHeight = 320.0;

@@ -11,8 +11,6 @@ namespace oneac::internal {
 [[nodiscard]] std::string decimals(double value, int digits);
 /// Three significant digits, no exponent between 0.001 and 1e6.
 [[nodiscard]] std::string three_digits(double value);
-/// For text and attributes of HTML.
-[[nodiscard]] std::string html_escaped(const std::string& text);
 [[nodiscard]] std::string base64(const std::vector<unsigned char>& bytes);
 
 }  // namespace oneac::internal

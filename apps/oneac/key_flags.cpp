@@ -1,0 +1,24 @@
+#include "key_flags.h"
+
+namespace oneac::app {
+
+void add_key(CLI::App& verb, const std::string& flag, const std::string& key,
+             std::vector<std::string>& settings, const std::string& help) {
+  verb.add_option_function<std::string>(
+      flag, [&settings, key](const std::string& value) { settings.push_back(key + "=" + value); },
+      help);
+}
+
+void add_selection(CLI::App& verb, std::vector<std::string>& settings) {
+  add_key(verb, "--features", "front_end.features.extractor", settings,
+          "klt, vlfeat, vlfeat+align or sift");
+  add_key(verb, "--images-dir", "source.images_dir", settings, "folder of the external images");
+  add_key(verb, "--camera", "source.camera", settings, "left, right or a sensor label");
+  add_key(verb, "--calibration", "source.calibration", settings,
+          "FILE[:SECTION] instead of the log's");
+  add_key(verb, "--first", "source.first", settings, "first image to use, from 0");
+  add_key(verb, "--count", "source.count", settings, "images to use at most; 0: all");
+  add_key(verb, "--every", "source.every", settings, "use every K-th image");
+}
+
+}  // namespace oneac::app
