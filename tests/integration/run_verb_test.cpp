@@ -108,6 +108,11 @@ TEST_F(RunVerb, TakesKeysFromFilesSettingsAndFlagsInThisOrder) {
       3U);
 }
 
+TEST_F(RunVerb, TakesTheExtractorAsAFlag) {
+  const fs::path out = run("sift", {"--features", "sift", "--count", "3"});
+  EXPECT_NE(read_file(out / "params.yaml").find("extractor: \"sift\""), std::string::npos);
+}
+
 TEST_F(RunVerb, EffectiveParametersRepeatTheRun) {
   const fs::path a = run("a", {"--set", "front_end.consensus.modes=4", "--every", "2"});
   const fs::path b = run("b", {"--params", (a / "params.yaml").string()});
