@@ -9,10 +9,15 @@ namespace {
 // Keeps 0/0 out where both epipolar lines vanish; far below any gradient of a unit translation.
 constexpr float kTinyGradient = 1e-30F;
 
+inline FloatLanes at_most_one(const FloatLanes& ratio) {
+  const FloatLanes one = FloatLanes{} + 1.0F;
+  return ratio < one ? ratio : one;
+}
+
 /// Hypotheses in the lanes, points one after the other.
 void planar_costs(const PlanarEssentials& hypotheses, const PointArrays<float>& points,
                   float inverse_squared_threshold, float* cost) {
-  for (std::size_t h = 0; h < hypotheses.padded_size; h += kFloatLanes) {
+  for (std::size_t h = 0; h < hypotheses.padded_size; h += kLanes<float>) {
     FloatLanes e12, e21, e23, e32;
     load(hypotheses.e12 + h, e12);
     load(hypotheses.e21 + h, e21);
@@ -29,18 +34,18 @@ void planar_costs(const PlanarEssentials& hypotheses, const PointArrays<float>& 
       const FloatLanes algebraic = f * y1 + b * y2;
       const FloatLanes gradient = a * a + b * b + d * d + f * f + kTinyGradient;
       const FloatLanes ratio = algebraic * algebraic * inverse_squared_threshold / gradient;
-      total += (ratio < 1.0F ? ratio : (ratio * 0.0F + 1.0F)) * points.weight[i];
+      total += at_most_one(ratio) * points.weight[i];
     }
-    __builtin_memcpy(cost + h, &total, sizeof total);
+    store(total, cost + h);
   }
 }
 
-/// Points in the lanes.
-float msac(const float* E, const PointArrays<float>& points, std::size_t first, std::size_t last,
-           float inverse_squared_threshold) {
+/// Points in the lanes. Partial sums [part, part + kLanes) of the groups [first, last).
+void msac_part(const float* E, const PointArrays<float>& points, std::size_t first,
+               std::size_t last, float inverse_squared_threshold, std::size_t part,
+               float* partial) {
   FloatLanes total = {};
-  const FloatLanes one = total + 1.0F;
-  for (std::size_t i = first * kPointGroup; i < last * kPointGroup; i += kFloatLanes) {
+  for (std::size_t i = first * kPointGroup + part; i < last * kPointGroup; i += kPointGroup) {
     FloatLanes x1, y1, x2, y2, weight;
     load(points.x1 + i, x1);
     load(points.y1 + i, y1);
@@ -54,10 +59,19 @@ float msac(const float* E, const PointArrays<float>& points, std::size_t first, 
     const FloatLanes f = E[1] * x2 + E[4] * y2 + E[7];
     const FloatLanes algebraic = x2 * a + y2 * b + c;
     const FloatLanes gradient = a * a + b * b + d * d + f * f + kTinyGradient;
-    const FloatLanes ratio = algebraic * algebraic * inverse_squared_threshold / gradient;
-    total += (ratio < one ? ratio : one) * weight;
+    total += at_most_one(algebraic * algebraic * inverse_squared_threshold / gradient) * weight;
   }
-  return sum<float>(total);
+  store(total, partial + part);
+}
+
+float msac(const float* E, const PointArrays<float>& points, std::size_t first, std::size_t last,
+           float inverse_squared_threshold) {
+  static_assert(kPartialSums<float> == kPointGroup);
+  float partial[kPartialSums<float>];
+  for (std::size_t part = 0; part < kPartialSums<float>; part += kLanes<float>) {
+    msac_part(E, points, first, last, inverse_squared_threshold, part, partial);
+  }
+  return sum(partial);
 }
 
 /// Three coordinates per lane.
@@ -72,19 +86,27 @@ inline auto cross(const A& a, const B& b) {
   return Vector<Lanes>{a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
 }
 
+/// NormalSums, each in its partial sums.
+template <class Number>
+struct PartialNormalSums {
+  Number cost[kPartialSums<Number>];
+  Number g[5][kPartialSums<Number>];
+  Number H[15][kPartialSums<Number>];
+};
+
 /// Points in the lanes. With y = R x1 and q = x2 × t the algebraic distance x2ᵀ[t]×R x1 is q·y, its
 /// derivative y × q with respect to w and (y × x2)·T with respect to b. The squared gradient norm
 /// is |l|² + |k|² with the lines l = (t × y)₁₂ and k = (Rᵀ q)₁₂.
 template <class Number, bool kExact>
-void normal_sums(const PoseNumbers<Number>& pose, const PointArrays<Number>& points,
-                 Number squared_scale, NormalSums<Number>& out) {
+void normal_part(const PoseNumbers<Number>& pose, const PointArrays<Number>& points,
+                 Number squared_scale, std::size_t part, PartialNormalSums<Number>& out) {
   using Lanes = typename LanesOf<Number>::Type;
   Lanes cost = {};
   Lanes g[5] = {};
   Lanes H[15] = {};
   const Number* R = pose.R;
   const Vector<Number> t{pose.t[0], pose.t[1], pose.t[2]};
-  for (std::size_t i = 0; i < points.padded_size; i += LanesOf<Number>::kCount) {
+  for (std::size_t i = part; i < points.padded_size; i += kPartialSums<Number>) {
     Lanes x1, y1, weight;
     Vector<Lanes> x2;
     load(points.x1 + i, x1);
@@ -134,9 +156,21 @@ void normal_sums(const PoseNumbers<Number>& pose, const PointArrays<Number>& poi
       for (int m = k; m < 5; ++m) H[n++] += wJ * J[m];
     }
   }
-  out.cost = sum<Number>(cost);
-  for (int k = 0; k < 5; ++k) out.g[k] = sum<Number>(g[k]);
-  for (int k = 0; k < 15; ++k) out.H[k] = sum<Number>(H[k]);
+  store(cost, out.cost + part);
+  for (int k = 0; k < 5; ++k) store(g[k], out.g[k] + part);
+  for (int k = 0; k < 15; ++k) store(H[k], out.H[k] + part);
+}
+
+template <class Number, bool kExact>
+void normal_sums(const PoseNumbers<Number>& pose, const PointArrays<Number>& points,
+                 Number squared_scale, NormalSums<Number>& out) {
+  PartialNormalSums<Number> partial;
+  for (std::size_t part = 0; part < kPartialSums<Number>; part += kLanes<Number>) {
+    normal_part<Number, kExact>(pose, points, squared_scale, part, partial);
+  }
+  out.cost = sum(partial.cost);
+  for (int k = 0; k < 5; ++k) out.g[k] = sum(partial.g[k]);
+  for (int k = 0; k < 15; ++k) out.H[k] = sum(partial.H[k]);
 }
 
 constexpr ConsensusKernels kKernels{&planar_costs, &msac, &normal_sums<float, false>,

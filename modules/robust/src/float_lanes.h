@@ -7,17 +7,22 @@
 // inline of the standard library or Eigen is used: the linker must not take a function compiled for
 // AVX as the one for all.
 //
-// The number of lanes is the same at every level; narrower machines take several instructions per
-// operation. Sums are therefore taken in the same order everywhere and, without fused
-// multiplications, come out with the same bits.
+// A vector is as wide as the machine's registers; wider ones are taken apart element by element by
+// the compiler. The number of partial sums is the same at every level: sums are taken in the same
+// order everywhere and, without fused multiplications, come out with the same bits.
 namespace oneac::internal {
 namespace {
 
-constexpr std::size_t kFloatLanes = 16;
-constexpr std::size_t kDoubleLanes = 8;
+#if defined(__AVX512F__)
+constexpr std::size_t kVectorBytes = 64;
+#elif defined(__AVX__)
+constexpr std::size_t kVectorBytes = 32;
+#else
+constexpr std::size_t kVectorBytes = 16;
+#endif
 
-typedef float FloatLanes __attribute__((vector_size(64)));
-typedef double DoubleLanes __attribute__((vector_size(64)));
+typedef float FloatLanes __attribute__((vector_size(kVectorBytes)));
+typedef double DoubleLanes __attribute__((vector_size(kVectorBytes)));
 
 /// What a kernel needs to know of its lanes.
 template <class Number>
@@ -25,28 +30,36 @@ struct LanesOf;
 template <>
 struct LanesOf<float> {
   using Type = FloatLanes;
-  static constexpr std::size_t kCount = kFloatLanes;
 };
 template <>
 struct LanesOf<double> {
   using Type = DoubleLanes;
-  static constexpr std::size_t kCount = kDoubleLanes;
 };
+
+/// Numbers in a register.
+template <class Number>
+constexpr std::size_t kLanes = kVectorBytes / sizeof(Number);
+/// Partial sums that a long sum is taken in: whole registers at every level.
+template <class Number>
+constexpr std::size_t kPartialSums = 64 / sizeof(Number);
 
 template <class Number>
 inline void load(const Number* from, typename LanesOf<Number>::Type& to) {
   __builtin_memcpy(&to, from, sizeof to);
 }
 
-/// Sum of the lanes, halves first: the same order whatever the machine.
 template <class Number>
-inline Number sum(const typename LanesOf<Number>::Type& lanes) {
-  Number values[LanesOf<Number>::kCount];
-  __builtin_memcpy(values, &lanes, sizeof lanes);
-  for (std::size_t half = LanesOf<Number>::kCount / 2; half > 0; half /= 2) {
-    for (std::size_t i = 0; i < half; ++i) values[i] += values[i + half];
+inline void store(const typename LanesOf<Number>::Type& from, Number* to) {
+  __builtin_memcpy(to, &from, sizeof from);
+}
+
+/// Sum of the partial sums, halves first.
+template <class Number>
+inline Number sum(Number* partial) {
+  for (std::size_t half = kPartialSums<Number> / 2; half > 0; half /= 2) {
+    for (std::size_t i = 0; i < half; ++i) partial[i] += partial[i + half];
   }
-  return values[0];
+  return partial[0];
 }
 
 }  // namespace
