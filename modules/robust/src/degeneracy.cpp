@@ -25,6 +25,10 @@ constexpr double kStandingShare = 0.8;
 // The rotation of a pose with a wrong translation is off by the parallax it explains away: looked
 // at more closely when its median shift is below so many bounds.
 constexpr double kWorthAFit = 6.0;
+// A glance at so many correspondences tells a moving camera: their median is not three times that
+// of all.
+constexpr std::size_t kGlance = 64;
+constexpr double kClearlyAbove = 3.0;
 
 double median(std::vector<double> values) {
   const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
@@ -35,6 +39,9 @@ double median(std::vector<double> values) {
 /// Result when R alone leaves the points within the bounds.
 std::optional<RobustResult> explained(AcSpan acs, const Eigen::Matrix3d& R,
                                       const DegeneracyBounds& bounds) {
+  if (median_transfer_error(R, acs, kGlance) >= kClearlyAbove * bounds.standing_shift) {
+    return std::nullopt;
+  }
   const std::vector<double> errors = rotation_transfer_errors(R, acs);
   if (median(errors) >= bounds.standing_shift) return std::nullopt;
   RobustResult result;
@@ -52,12 +59,16 @@ std::optional<RobustResult> explained(AcSpan acs, const Eigen::Matrix3d& R,
   return result;
 }
 
-/// t or −t, whichever puts more inliers before both cameras.
-RelativePose with_forward_sign(const RelativePose& pose, AcSpan acs,
-                               const std::vector<bool>& inliers) {
+// Inliers that vote on the sign of t; each is right unless it is far away, and then undecided.
+constexpr std::size_t kVoters = 128;
+
+/// t or −t, whichever puts more of some evenly spaced inliers before both cameras.
+RelativePose with_forward_sign(const RelativePose& pose, AcSpan acs, const RobustResult& found) {
+  const std::size_t every = std::max<std::size_t>(1, found.inlier_count / kVoters);
   int votes = 0;
+  std::size_t seen = 0;
   for (std::size_t i = 0; i < acs.size(); ++i) {
-    if (inliers[i]) votes += cheirality(pose, acs[i].x1, acs[i].x2);
+    if (found.inliers[i] && seen++ % every == 0) votes += cheirality(pose, acs[i].x1, acs[i].x2);
   }
   return votes < 0 ? RelativePose{pose.R, -pose.t} : pose;
 }
@@ -80,7 +91,7 @@ std::optional<RobustResult> standing(AcSpan acs, const DegeneracyBounds& bounds)
 
 std::optional<RobustResult> turning(AcSpan acs, const Eigen::Matrix3d& R_start,
                                     const DegeneracyBounds& bounds) {
-  if (median(rotation_transfer_errors(R_start, acs)) >= kWorthAFit * bounds.standing_shift) {
+  if (median_transfer_error(R_start, acs, kGlance) >= kWorthAFit * bounds.standing_shift) {
     return std::nullopt;
   }
   const RotationFit fit = refine_rotation(R_start, acs, bounds.threshold);
@@ -99,7 +110,7 @@ void conclude(const RelativePose& candidate, AcSpan acs, double threshold, Robus
   result.inliers = sampson_inliers(E, acs, threshold);
   result.inlier_count =
       static_cast<std::size_t>(std::count(result.inliers.begin(), result.inliers.end(), true));
-  result.pose = with_forward_sign(polished.pose, acs, result.inliers);
+  result.pose = with_forward_sign(polished.pose, acs, result);
   result.covariance = internal::pose_covariance(polished, result, acs);
 }
 

@@ -3,7 +3,7 @@
 #include "consensus_kernels.h"
 #include "levelled_acs.h"
 
-#include "oneac/robust/hypotheses.h"
+#include "oneac/robust/pitch_sweep.h"
 #include "oneac/solvers/relpose_1ac_front_wall.h"
 #include "oneac/solvers/relpose_1ac_side_wall.h"
 #include "oneac/solvers/relpose_1ac_wall.h"
@@ -53,7 +53,7 @@ class PlanarPool {
 
  private:
   void grow() {
-    const std::size_t room = motions_.size() + 64 * kPointGroup;
+    const std::size_t room = 2 * motions_.size() + 16 * kPointGroup;
     motions_.resize(room);
     for (std::vector<float>* e : {&e12_, &e21_, &e23_, &e32_}) e->resize(room, 0.0F);
   }
@@ -120,11 +120,11 @@ std::size_t solve(const LevelledAcs& acs, const ConsensusOptions& options, Batch
   return solved + solve_walls(acs, options, pool);
 }
 
-/// So that about `minimal_problems` are solved per solver over all turns, every correspondence at
-/// some of them.
-std::size_t stride_for(std::size_t acs, std::size_t turns, const ConsensusOptions& options) {
-  const auto wanted = static_cast<std::size_t>(options.minimal_problems);
-  return std::max<std::size_t>(1, acs * turns / wanted);
+/// So that about `problems` are solved per solver over all turns, every correspondence at some of
+/// them.
+std::size_t stride_for(std::size_t acs, std::size_t turns, int problems) {
+  const auto wanted = static_cast<std::size_t>(problems);
+  return std::max<std::size_t>(1, (acs * turns + wanted / 2) / wanted);
 }
 
 /// One scored motion, small: poses are made of those that stay.
@@ -181,21 +181,26 @@ std::vector<Eigen::Matrix3d> turns(const ConsensusOptions& options) {
   return Q;
 }
 
-}  // namespace
+/// What a search looks at beside the correspondences.
+struct Scope {
+  std::vector<Eigen::Matrix3d> turns;  ///< of the second view
+  int problems;                        ///< minimal ones, per solver
+  std::size_t keep;
+};
 
-SearchResult search_poses(AcSpan acs, const Eigen::Matrix3d& R_level_cam, double threshold,
-                          std::size_t keep, const ConsensusOptions& options) {
+SearchResult search(AcSpan acs, const Eigen::Matrix3d& R_level_cam, double threshold,
+                    const Scope& scope, const ConsensusOptions& options) {
   SearchResult result;
   LevelledAcs levelled(acs, R_level_cam);
   if (levelled.size() == 0) return result;
   const ConsensusKernels& kernels = consensus_kernels(best_simd_level());
   const double width = kSampleWidth * threshold;
   const auto inverse_squared = static_cast<float>(1.0 / (width * width));
-  const std::vector<Eigen::Matrix3d> Q = turns(options);
-  const std::size_t stride = stride_for(levelled.size(), Q.size(), options);
+  const std::vector<Eigen::Matrix3d>& Q = scope.turns;
+  const std::size_t stride = stride_for(levelled.size(), Q.size(), scope.problems);
   BatchPoses poses;
   PlanarPool pool;
-  ShortList list(keep);
+  ShortList list(scope.keep);
   std::vector<float> costs;
   for (std::size_t turn = 0; turn < Q.size(); ++turn) {
     levelled.turn_second_view(Q[turn], {turn % stride, stride});
@@ -218,6 +223,24 @@ SearchResult search_poses(AcSpan acs, const Eigen::Matrix3d& R_level_cam, double
          static_cast<double>(entry.cost)});
   }
   return result;
+}
+
+}  // namespace
+
+SearchResult search_poses(AcSpan acs, const Eigen::Matrix3d& R_level_cam, double threshold,
+                          std::size_t keep, const ConsensusOptions& options) {
+  return search(acs, R_level_cam, threshold, {turns(options), options.minimal_problems, keep},
+                options);
+}
+
+SearchResult search_level_poses(AcSpan acs, const Eigen::Matrix3d& R_level_cam, double threshold,
+                                std::size_t keep, const ConsensusOptions& options) {
+  const std::size_t stride = stride_for(acs.size(), 1, options.first_problems);
+  std::vector<AffineCorrespondence> some;
+  some.reserve(acs.size() / stride + 1);
+  for (std::size_t i = 0; i < acs.size(); i += stride) some.push_back(acs[i]);
+  return search(some, R_level_cam, threshold,
+                {{Eigen::Matrix3d::Identity()}, options.first_problems, keep}, options);
 }
 
 }  // namespace oneac::internal

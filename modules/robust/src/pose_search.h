@@ -27,4 +27,10 @@ struct SearchResult {
                                         double threshold, std::size_t keep,
                                         const ConsensusOptions& options);
 
+/// The same for about `options.first_problems` of the correspondences, evenly spaced, without a
+/// relative pitch or roll.
+[[nodiscard]] SearchResult search_level_poses(AcSpan acs, const Eigen::Matrix3d& R_level_cam,
+                                              double threshold, std::size_t keep,
+                                              const ConsensusOptions& options);
+
 }  // namespace oneac::internal

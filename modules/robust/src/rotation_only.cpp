@@ -4,14 +4,14 @@
 
 #include <Eigen/Dense>
 
+#include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <limits>
 
 namespace oneac {
 namespace {
 
-constexpr double kFirstScale =
-    16.0;  // of the threshold: reaches 16 px of turning between two frames
 constexpr int kIterationsPerScale = 3;
 
 // Scales of refine_rotation: it starts within a few thresholds.
@@ -62,10 +62,6 @@ Eigen::Matrix3d descend(Eigen::Matrix3d R, AcSpan acs, double threshold, double 
 
 }  // namespace
 
-Eigen::Matrix3d fit_rotation(AcSpan acs, double threshold) {
-  return descend(Eigen::Matrix3d::Identity(), acs, threshold, kFirstScale);
-}
-
 RotationFit refine_rotation(const Eigen::Matrix3d& start, AcSpan acs, double threshold) {
   RotationFit fit;
   fit.R = descend(start, acs, threshold, kNearScale);
@@ -77,15 +73,32 @@ RotationFit refine_rotation(const Eigen::Matrix3d& start, AcSpan acs, double thr
   return fit;
 }
 
+namespace {
+
+double transfer_error(const Eigen::Matrix3d& R, const AffineCorrespondence& ac) {
+  const Eigen::Vector3d y = R * ac.x1.homogeneous();
+  return y.z() > 1e-6 ? (y.head<2>() / y.z() - ac.x2).norm()
+                      : std::numeric_limits<double>::infinity();
+}
+
+}  // namespace
+
 std::vector<double> rotation_transfer_errors(const Eigen::Matrix3d& R, AcSpan acs) {
   std::vector<double> errors;
   errors.reserve(acs.size());
-  for (const AffineCorrespondence& ac : acs) {
-    const Eigen::Vector3d y = R * ac.x1.homogeneous();
-    errors.push_back(y.z() > 1e-6 ? (y.head<2>() / y.z() - ac.x2).norm()
-                                  : std::numeric_limits<double>::infinity());
-  }
+  for (const AffineCorrespondence& ac : acs) errors.push_back(transfer_error(R, ac));
   return errors;
+}
+
+double median_transfer_error(const Eigen::Matrix3d& R, AcSpan acs, std::size_t looked_at) {
+  const std::size_t count = std::min(looked_at, acs.size());
+  std::vector<double> errors(count);
+  for (std::size_t k = 0; k < count; ++k) {
+    errors[k] = transfer_error(R, acs[k * acs.size() / count]);
+  }
+  const auto middle = errors.begin() + static_cast<std::ptrdiff_t>(count / 2);
+  std::nth_element(errors.begin(), middle, errors.end());
+  return *middle;
 }
 
 }  // namespace oneac

@@ -2,7 +2,7 @@
 
 #include "oneac/geometry/angular_errors.h"
 #include "oneac/geometry/leveling.h"
-#include "oneac/robust/hypotheses.h"
+#include "oneac/robust/pitch_sweep.h"
 #include "oneac/test_support/scenes.h"
 
 #include <gtest/gtest.h>
@@ -165,6 +165,52 @@ TEST(OneAcConsensus, CoversRollAndPitchTogetherAmongOutliers) {
   }
 }
 
+/// Without affine noise, so that a first look is sure to find good hypotheses.
+std::vector<AffineCorrespondence> clean_street(SceneGenerator& scene, const RelativePose& T,
+                                               double step) {
+  std::vector<AffineCorrespondence> acs;
+  for (int i = 0; i < 300; ++i) {
+    const Plane plane = i % 3 == 0 ? scene.ground() : scene.any_plane();
+    acs.push_back(scene.with_noise(scene.on_plane({T.R, step * T.t}, plane), 0.3 / kFocal, 0.01));
+  }
+  return acs;
+}
+
+TEST(OneAcConsensus, IsContentWithAFirstLookWhereItExplainsThePoints) {
+  SceneGenerator scene(34);
+  const RelativePose T = scene.planar_motion();
+  const auto acs = clean_street(scene, T, 1.0);
+  const RobustResult quick = one_ac_consensus(acs, kLevel, kFocal, {});
+  expect_close(quick, T, 0);
+  EXPECT_LE(quick.statistics.local_optimisations,
+            static_cast<std::size_t>(ConsensusOptions{}.first_modes));
+  ConsensusOptions thorough;
+  thorough.first_modes = 0;
+  const RobustResult slow = one_ac_consensus(acs, kLevel, kFocal, thorough);
+  EXPECT_GT(slow.statistics.hypotheses, 4 * quick.statistics.hypotheses);
+  EXPECT_LT(rotation_error(slow.pose.R, quick.pose.R), 1e-5);
+  EXPECT_LT(direction_error(slow.pose.t, quick.pose.t), 1e-4);
+}
+
+TEST(OneAcConsensus, LooksAtEverythingWhereThePointsHardlyMoveBesideTheRotation) {
+  SceneGenerator scene(35);
+  RelativePose T = scene.planar_motion();
+  T.t.normalize();
+  // One pixel at the usual depths: any direction of travel leaves the points within the bound.
+  const RobustResult result = one_ac_consensus(clean_street(scene, T, 0.01), kLevel, kFocal, {});
+  EXPECT_GT(result.statistics.local_optimisations,
+            static_cast<std::size_t>(ConsensusOptions{}.first_modes));
+}
+
+TEST(OneAcConsensus, LooksAtEverythingWhereManyCorrespondencesAreWrong) {
+  SceneGenerator scene(36);
+  const RelativePose T = scene.planar_motion();
+  const RobustResult result = one_ac_consensus(street(scene, T, 60), kLevel, kFocal, {});
+  expect_close(result, T, 0);
+  EXPECT_GT(result.statistics.local_optimisations,
+            static_cast<std::size_t>(ConsensusOptions{}.first_modes));
+}
+
 TEST(OneAcConsensus, CovarianceMatchesTheScatterOfItsErrors) {
   SceneGenerator scene(33);
   RelativePose T = scene.planar_motion();
@@ -203,22 +249,6 @@ TEST(PitchSweep, GoesOutFromZeroBothWays) {
   ASSERT_EQ(pitches.size(), expected.size());
   for (std::size_t i = 0; i < expected.size(); ++i) EXPECT_DOUBLE_EQ(pitches[i], expected[i]);
   EXPECT_EQ(pitch_sweep(0.0, 0.3).size(), 1U);
-}
-
-TEST(PlanarHypotheses, ContainTheTruthForAKnownPitch) {
-  SceneGenerator scene(28);
-  const double pitch = 1.2 * kDegree;
-  const Eigen::Matrix3d L = leveling_rotation({5.0 * kDegree, 0.0});
-  // Levelled: X2 = Rx(−θ) Ry X1 + Rx(−θ) t, so that Rx(θ) makes it planar.
-  RelativePose levelled = scene.planar_motion();
-  levelled = {pitch_rotation(-pitch) * levelled.R, pitch_rotation(-pitch) * levelled.t};
-  const RelativePose T = unlevel(levelled, L);
-  std::vector<AffineCorrespondence> acs{scene.on_plane(T, scene.any_plane())};
-  double best = 1.0;
-  planar_hypotheses(acs, L, pitch, {false, true}, [&](const RelativePose& pose) {
-    best = std::min(best, rotation_error(pose.R, T.R) + normal_error(pose.t, T.t));
-  });
-  EXPECT_LT(best, 1e-8);
 }
 
 }  // namespace

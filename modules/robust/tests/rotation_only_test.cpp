@@ -20,22 +20,22 @@ std::vector<AffineCorrespondence> rotated_points(SceneGenerator& scene, const Ei
   return acs;
 }
 
-TEST(FitRotation, RecoversTurnsOfAFewDegrees) {
-  SceneGenerator scene(71);
-  for (int trial = 0; trial < 20; ++trial) {
-    const Eigen::Vector3d w(scene.uniform(-0.03, 0.03), scene.uniform(-0.05, 0.05),
-                            scene.uniform(-0.02, 0.02));
-    const Eigen::Matrix3d R = rotation_from_vector(w);
-    EXPECT_LT(rotation_error(fit_rotation(rotated_points(scene, R), kThreshold), R), 1e-6);
-  }
-}
-
-TEST(FitRotation, IsNotMovedByOutliers) {
+TEST(RefineRotation, IsNotMovedByOutliers) {
   SceneGenerator scene(72);
   const Eigen::Matrix3d R = pitch_rotation(0.01);
   auto acs = rotated_points(scene, R);
   for (std::size_t i = 0; i < acs.size(); i += 5) acs[i].x2 = scene.image_point();
-  EXPECT_LT(rotation_error(fit_rotation(acs, kThreshold), R), 1e-4);
+  const RotationFit fit = refine_rotation(pitch_rotation(0.007), acs, kThreshold);
+  EXPECT_LT(rotation_error(fit.R, R), 1e-4);
+}
+
+TEST(MedianTransferError, IsThatOfEvenlySpacedCorrespondences) {
+  std::vector<AffineCorrespondence> acs(90);
+  for (std::size_t i = 0; i < acs.size(); ++i) acs[i].x2.x() = i % 3 == 0 ? 0.1 : 0.4;
+  const Eigen::Matrix3d I = Eigen::Matrix3d::Identity();
+  EXPECT_DOUBLE_EQ(median_transfer_error(I, acs, 90), 0.4);
+  EXPECT_DOUBLE_EQ(median_transfer_error(I, acs, 30), 0.1);
+  EXPECT_DOUBLE_EQ(median_transfer_error(I, acs, 1000), 0.4);
 }
 
 TEST(RotationTransferErrors, AreZeroForTheTruthAndInfiniteBehindTheCamera) {

@@ -17,6 +17,11 @@ struct ConsensusOptions {
   bool front_wall = false;    ///< hypotheses of the solver for walls across the road
   bool wall = false;          ///< hypotheses of the solver for any wall
   double threshold_px = 1.0;  ///< [px] Sampson inlier bound; DoG points repeat to 0.3…0.5 px (1σ)
+  int first_modes = 8;        ///< polished in a first look without pitch sweep; 0: none. Its answer
+                              ///< stands when it explains the points
+  int first_problems = 128;   ///< solved per solver in the first look
+  double settled_cost = 1.0 / 3.0;  ///< [-] MSAC cost a point below which an answer stands: that
+                                    ///< of residuals spread evenly within the bound
   double pitch_sweep_deg =
       2.4;  ///< [deg] relative pitch covered each way; the suspension gives up to this
   double pitch_step_deg = 0.6;  ///< [deg] at f = 700 px 7 px, half of it to the nearest step:
@@ -44,6 +49,9 @@ void describe(Visitor&& visit, ConsensusOptions& o) {
   visit("front_wall", o.front_wall, "bool", "hypotheses of the solver for walls across the road");
   visit("wall", o.wall, "bool", "hypotheses of the solver for any wall");
   visit("threshold_px", o.threshold_px, "px", "Sampson inlier bound");
+  visit("first_modes", o.first_modes, "count", "polished in a first look without sweep; 0: none");
+  visit("first_problems", o.first_problems, "count", "solved per solver in the first look");
+  visit("settled_cost", o.settled_cost, "-", "cost a point below which the first look stands");
   visit("pitch_sweep_deg", o.pitch_sweep_deg, "deg", "relative pitch covered each way");
   visit("pitch_step_deg", o.pitch_step_deg, "deg", "step of the sweep");
   visit("roll_sweep_deg", o.roll_sweep_deg, "deg", "relative roll covered each way");
@@ -57,12 +65,13 @@ void describe(Visitor&& visit, ConsensusOptions& o) {
   visit("standing_px", o.standing_px, "px", "median shift, rotation removed, of a standing camera");
 }
 
-/// Relative pose from one-AC hypotheses without a random number: every correspondence is solved at
-/// every relative pitch and roll of the sweep (several at a time, solvers/batch.h), every
-/// hypothesis is scored on a sample of the points and the best ones on all (MSAC on the Sampson
-/// distance), the best few distinct ones are polished with five degrees of freedom, and the best
-/// after polishing wins. Of two poses that one plane admits the one nearer to planar motion is
-/// taken.
+/// Relative pose from one-AC hypotheses without a random number: correspondences are solved
+/// (several at a time, solvers/batch.h), every hypothesis is scored on a sample of the points (MSAC
+/// on the Sampson distance), the best few distinct ones are polished with five degrees of freedom,
+/// and the best after polishing wins. A first look takes the motion as planar; where its answer
+/// does not explain the points, every correspondence is solved at every relative pitch and roll of
+/// the sweep and many modes are polished. Of two poses that one plane admits the one nearer to
+/// planar motion is taken.
 ///
 /// @param acs          normalised correspondences of the (tilted) camera
 /// @param R_level_cam  removes the camera's tilt (geometry/leveling.h), the same in both views

@@ -10,7 +10,7 @@ namespace oneac {
 struct PolishOptions {
   double threshold = 1e-3;  ///< [-] scale of the robust loss, normalised image units
   int max_iterations = 20;
-  double converged = 1e-9;  ///< [rad] a smaller step ends it
+  double converged = 1e-6;  ///< [rad] a smaller step ends it; what noise leaves is 1e-4 and more
 };
 
 struct PolishResult {
