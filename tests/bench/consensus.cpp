@@ -163,8 +163,17 @@ struct Variant {
   std::function<void(ConsensusOptions&)> change;
 };
 
+/// Beside the defaults every row is the whole search, of which it says what each part is worth.
 const std::vector<Variant> kVariants = {
-    {"defaults", [](ConsensusOptions&) {}},
+    {"defaults: first look, then the whole search", [](ConsensusOptions& o) { o.first_modes = 8; }},
+    {"first look with 1 mode, then the whole search",
+     [](ConsensusOptions& o) { o.first_modes = 1; }},
+    {"first look, whatever it explains",
+     [](ConsensusOptions& o) {
+       o.first_modes = 8;
+       o.settled_cost = 1.0;
+     }},
+    {"whole search", [](ConsensusOptions&) {}},
     {"ground only, no pitch, 1 mode",
      [](ConsensusOptions& o) {
        o.planar = false;
@@ -203,6 +212,7 @@ void ablation(const std::vector<Pair>& pairs, const Trajectory& truth, const cha
   print_head(title);
   for (const Variant& variant : kVariants) {
     ConsensusOptions options;
+    options.first_modes = 0;
     variant.change(options);
     print(variant.name, measure(pairs, truth, options, stress));
   }
