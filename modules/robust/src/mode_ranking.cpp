@@ -94,8 +94,9 @@ class Look {
   Look(const ConsensusProblem& problem, std::size_t sample, RobustStatistics& statistics)
       : p_(problem), sample_(evenly_spaced(problem.acs, sample)), statistics_(statistics) {}
 
-  /// Whether a motion explains the points so well that no other can: at an MSAC cost of 1/3 a point
-  /// the residuals are as if spread evenly within the bound, of a motion that says nothing.
+  /// Whether a motion explains the points so well that no other can. Residuals spread evenly
+  /// within the bound, of a motion that says nothing, cost 1/3 a point, and the right motion at
+  /// most 1/4 where the bound is no less than two sigma of the noise.
   [[nodiscard]] bool settled(const Candidate& c, const PointSet& points) const {
     return c.cost < p_.options.settled_cost * static_cast<double>(points.size());
   }
