@@ -106,12 +106,20 @@ void conclude(const RelativePose& candidate, AcSpan acs, double threshold, Robus
   const PolishResult polished =
       polish(candidate, PrecisePointSet(acs), {threshold, PolishOptions{}.max_iterations});
   const Eigen::Matrix3d E = essential_matrix(polished.pose);
-  result.cost = msac_cost(E, PointSet(acs), threshold, std::numeric_limits<double>::infinity());
-  result.inliers = sampson_inliers(E, acs, threshold);
-  result.inlier_count =
-      static_cast<std::size_t>(std::count(result.inliers.begin(), result.inliers.end(), true));
+  result.inliers.assign(acs.size(), false);
+  result.cost = 0.0;
+  result.inlier_count = 0;
+  double squares = 0.0;
+  for (std::size_t i = 0; i < acs.size(); ++i) {
+    const double r = sampson_distance(E, acs[i].x1, acs[i].x2);
+    result.inliers[i] = std::abs(r) <= threshold;
+    result.cost += std::min(1.0, r * r / (threshold * threshold));
+    if (!result.inliers[i]) continue;
+    ++result.inlier_count;
+    squares += r * r;
+  }
   result.pose = with_forward_sign(polished.pose, acs, result);
-  result.covariance = internal::pose_covariance(polished, result, acs);
+  result.covariance = internal::pose_covariance(polished, result, squares);
 }
 
 void settle_one_plane(AcSpan acs, const Eigen::Matrix3d& R_level_cam, double threshold,

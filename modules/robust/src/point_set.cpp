@@ -3,8 +3,6 @@
 #include "consensus_kernels.h"
 #include "point_arrays.h"
 
-#include "oneac/geometry/essential.h"
-
 #include <algorithm>
 #include <cmath>
 
@@ -47,14 +45,6 @@ double msac_cost(const Eigen::Matrix3d& E, const PointSet& points, double thresh
     cost += static_cast<double>(kernels.msac(entries, arrays, first, last, inverse_squared));
   }
   return cost;
-}
-
-std::vector<bool> sampson_inliers(const Eigen::Matrix3d& E, AcSpan acs, double threshold) {
-  std::vector<bool> inliers(acs.size());
-  for (std::size_t i = 0; i < acs.size(); ++i) {
-    inliers[i] = std::abs(sampson_distance(E, acs[i].x1, acs[i].x2)) <= threshold;
-  }
-  return inliers;
 }
 
 }  // namespace oneac

@@ -1,6 +1,7 @@
 #include "oneac/robust/point_set.h"
 
 #include "oneac/geometry/essential.h"
+#include "oneac/robust/degeneracy.h"
 #include "oneac/test_support/scenes.h"
 
 #include <gtest/gtest.h>
@@ -56,16 +57,25 @@ TEST(MsacCost, GivesUpOnceTheBarIsReached) {
   EXPECT_LT(cost, 100.0);  // not all 640 were looked at
 }
 
-TEST(SampsonInliers, AreThoseWithinTheThreshold) {
+TEST(Conclude, CountsThoseWithinTheThresholdAndTheirCost) {
   SceneGenerator scene(4);
-  const RelativePose T = scene.general_motion();
+  RelativePose T = scene.general_motion();
+  T.t.normalize();
   const auto acs = mixed_scene(scene, T);
-  const auto inliers = sampson_inliers(essential_matrix(T), acs, kThreshold);
-  ASSERT_EQ(inliers.size(), acs.size());
+  RobustResult result;
+  conclude(T, acs, kThreshold, result);
+  ASSERT_EQ(result.inliers.size(), acs.size());
+  const Eigen::Matrix3d E = essential_matrix(result.pose);
+  std::size_t inliers = 0;
   for (std::size_t i = 0; i < acs.size(); ++i) {
-    if (i % 3 == 0) continue;
-    EXPECT_TRUE(inliers[i]) << i;  // noise of a quarter of the threshold
+    const double r = std::abs(sampson_distance(E, acs[i].x1, acs[i].x2));
+    EXPECT_EQ(result.inliers[i], r <= kThreshold) << i;
+    inliers += r <= kThreshold ? 1 : 0;
+    const bool right = i % 3 != 0;  // noise of a quarter of the threshold
+    EXPECT_TRUE(result.inliers[i] || !right) << i;
   }
+  EXPECT_EQ(result.inlier_count, inliers);
+  EXPECT_NEAR(result.cost, msac_cost(E, PointSet(acs), kThreshold, kNever), 1e-3 * result.cost);
 }
 
 }  // namespace

@@ -32,8 +32,4 @@ using PrecisePointSet = BasicPointSet<double>;
 [[nodiscard]] double msac_cost(const Eigen::Matrix3d& E, const PointSet& points, double threshold,
                                double give_up);
 
-/// Which point pairs lie within the threshold.
-[[nodiscard]] std::vector<bool> sampson_inliers(const Eigen::Matrix3d& E, AcSpan acs,
-                                                double threshold);
-
 }  // namespace oneac
