@@ -47,8 +47,8 @@ def blocks_of(page):
 
 
 def shape(text):
-    """A line without its numbers and without the spaces that follow from their lengths."""
-    return re.sub(r"\s+", " ", NUMBER.sub("#", text)).strip()
+    """A line without its numbers, and without what follows from them: spaces, the best in bold."""
+    return re.sub(r"\s+", " ", NUMBER.sub("#", text).replace("**", "")).strip()
 
 
 def same(shown, printed):

@@ -47,7 +47,7 @@ TEST(Study, AFigureAloneHasTheNumbersThatItHasAmongAll) {
   const auto all = run_study(small({}, 30));
   ASSERT_EQ(alone.experiments.size(), 1U);
   ASSERT_EQ(all.experiments.size(), experiments().size());
-  const Figure& h = wanted_figures(small({"h"}, 30)).front();
+  const Figure h = wanted_figures(small({"h"}, 30)).front();
   EXPECT_EQ(csv_of(*alone.find("sideways_wall"), h, 30), csv_of(*all.find("sideways_wall"), h, 30));
 }
 

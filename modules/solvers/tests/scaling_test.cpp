@@ -1,0 +1,83 @@
+// What must not depend on the size of numbers: weights, coefficients, the angle of view.
+#include "point_solver_tools.h"
+#include "polynomial.h"
+
+#include "oneac/solvers/essential_8pc.h"
+#include "oneac/solvers/homography_2ac.h"
+#include "oneac/solvers/homography_4pc.h"
+#include "oneac/solvers/relpose_1ac_planar.h"
+#include "oneac/solvers/relpose_1pc_ackermann.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <vector>
+
+namespace oneac {
+namespace {
+
+using namespace test;
+
+// Smaller than the trace of any normal matrix of a few rows, far from the least double.
+constexpr double kTinyWeight = 1e-9;
+
+TEST(Scaling, SizeOfTheWeightsDoesNotMatterToPlanarMotion) {
+  SceneGenerator scene(11);
+  const std::vector<double> weights(6, kTinyWeight);
+  for (int i = 0; i < 100; ++i) {
+    const RelativePose T = scene.planar_motion();
+    const auto found = relpose_nac_planar(scattered(scene, T, 6), weights.data());
+    ASSERT_EQ(found.size(), 1u) << "scene " << i << " of seed 11";
+    EXPECT_LT(pose_error(found[0].pose(), T), kExact) << "scene " << i << " of seed 11";
+  }
+}
+
+TEST(Scaling, SizeOfTheWeightsDoesNotMatterToEssentialMatricesAndHomographies) {
+  SceneGenerator scene(12);
+  const std::vector<double> weights(12, kTinyWeight);
+  for (int i = 0; i < 100; ++i) {
+    const RelativePose T = scene.planar_motion();
+    const Plane plane = scene.ground();
+    const auto scattered_points = scattered(scene, T, 12);
+    const auto on_plane = on_one_plane(scene, T, plane, 12);
+    EXPECT_EQ(essential_8pc(scattered_points, weights.data()).size(), 1u) << "scene " << i;
+    EXPECT_EQ(homography_4pc(on_plane, weights.data()).size(), 1u) << "scene " << i;
+    EXPECT_EQ(homography_2ac(on_plane, weights.data()).size(), 1u) << "scene " << i;
+  }
+}
+
+TEST(Scaling, SizeOfTheCoefficientsDoesNotMatterToTheRoots) {
+  // (x² − 1/4)(x² − 4), once as it is and once tiny.
+  const double plain[5] = {1.0, 0.0, -4.25, 0.0, 1.0};
+  double tiny[5];
+  for (int i = 0; i < 5; ++i) tiny[i] = 1e-20 * plain[i];
+  const internal::RealRoots<4> expected(plain), found(tiny);
+  ASSERT_EQ(expected.size(), 4);
+  ASSERT_EQ(found.size(), 4);
+  for (int i = 0; i < 4; ++i) EXPECT_NEAR(found[i], expected[i], 1e-12);
+}
+
+/// A point far out in a wide image, x = ±3 of a lens of more than 140°.
+AffineCorrespondence far_out(SceneGenerator& scene, const RelativePose& T) {
+  const double side = scene.uniform(-1.0, 1.0) > 0.0 ? 1.0 : -1.0;
+  const double depth = scene.uniform(6.0, 10.0);
+  const Eigen::Vector3d X1(side * scene.uniform(2.8, 3.2) * depth, 0.3 * depth, depth);
+  const Eigen::Vector3d X2 = T.R * X1 + T.t;
+  return {X1.hnormalized(), X2.hnormalized(), Eigen::Matrix2d::Identity()};
+}
+
+TEST(Scaling, CircularMotionIsFoundAtAnyAngleOfView) {
+  SceneGenerator scene(13);
+  for (int i = 0; i < 1000; ++i) {
+    const double alpha = scene.uniform(-0.05, 0.05);
+    const RelativePose T{yaw_rotation(std::cos(alpha), std::sin(alpha)),
+                         1.3 * Eigen::Vector3d(std::sin(alpha / 2), 0.0, -std::cos(alpha / 2))};
+    const AffineCorrespondence ac = far_out(scene, T);
+    const auto found = relpose_1pc_ackermann(AcSpan(&ac, 1));
+    ASSERT_EQ(found.size(), 1u) << "scene " << i << " of seed 13";
+    EXPECT_LT(pose_error(found[0].pose(), T), kExact) << "scene " << i << " of seed 13";
+  }
+}
+
+}  // namespace
+}  // namespace oneac
