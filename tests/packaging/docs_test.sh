@@ -28,7 +28,7 @@ expect_code 0
 case_name "every relative link of a page leads to a file"
 mapfile -t pages < <(cd "$root" && find README.md docs datasets -name '*.md' | sort)
 for page in "${pages[@]}"; do
-  grep -oE '\]\([^)#: ]+' "$root/$page" | sed 's/^](//' >"$run_output" || true
+  grep -oE '\]\([^)#: ]+[)#]' "$root/$page" | sed 's/^](//; s/.$//' >"$run_output" || true
   while read -r target; do
     [ -e "$(dirname "$root/$page")/$target" ] || fail "$page: no $target"
   done <"$run_output"
