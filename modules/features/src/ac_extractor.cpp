@@ -42,6 +42,8 @@ void KltOptions::validate() const {
   require(min_zncc > 0.0 && min_zncc < 1.0, "klt.min_zncc", min_zncc, "in (0, 1)");
   require(max_affine_sigma > 0.0, "klt.max_affine_sigma", max_affine_sigma, "positive");
   require(drift_zncc > 0.0 && drift_zncc < 1.0, "klt.drift_zncc", drift_zncc, "in (0, 1)");
+  require(broken_share >= 0.0 && broken_share <= 1.0, "klt.broken_share", broken_share,
+          "in [0, 1]");
   require(standing_px >= 0.0, "klt.standing_px", standing_px, "at least 0");
   require(static_frames > 0, "klt.static_frames", static_frames, "positive");
 }

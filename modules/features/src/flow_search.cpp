@@ -2,11 +2,13 @@
 
 #include <array>
 #include <limits>
+#include <utility>
 
 namespace oneac::internal {
 namespace {
 
 // Levels at which a guess is tried: 3 px · 2^level is what its error may be.
+constexpr std::size_t kSteady = 1;      // the last motion goes on: 6 px
 constexpr std::size_t kPredicted = 2;   // the last motion, the road, neighbours: 12 px
 constexpr std::size_t kUnknown = 8;     // anything: the top of the pyramid
 constexpr double kNeighbourhood = 150;  // [px] beyond it depths have nothing in common
@@ -20,27 +22,43 @@ class TrackSearch {
       : tracks_(tracks), motion_(motion), flow_(first, second, options), matches_(tracks.size()) {}
 
   std::vector<std::optional<PatchMatch>> run() {
-    std::vector<std::size_t> lost;
     for (const bool fresh : {false, true}) {
       for (std::size_t i = 0; i < tracks_.size(); ++i) {
         if ((tracks_[i].age == 0) != fresh) continue;
         matches_[i] = flow_.find(tracks_[i].u, guesses(tracks_[i]), memory(tracks_[i]));
-        if (!matches_[i]) lost.push_back(i);
       }
-      found_ = matches_;  // neighbours of what follows: never of a result of the same round
+      remember(matches_);  // neighbours of what follows: never of a result of the same round
     }
-    for (const std::size_t i : lost) {
+    return again(std::move(matches_));
+  }
+
+  std::vector<std::optional<PatchMatch>> again(std::vector<std::optional<PatchMatch>> matches) {
+    remember(matches);
+    for (std::size_t i = 0; i < tracks_.size(); ++i) {
+      if (matches[i]) continue;
       std::vector<FlowGuess> second_try;
       add_neighbours(tracks_[i], second_try);
       if (second_try.empty()) continue;
-      matches_[i] = flow_.find(tracks_[i].u, second_try, memory(tracks_[i]));
+      matches[i] = flow_.find(tracks_[i].u, second_try, memory(tracks_[i]));
     }
-    return std::move(matches_);
+    return matches;
   }
 
  private:
+  struct Neighbour {
+    Eigen::Vector2d u1;
+    PatchWarp warp;
+  };
+
+  void remember(const std::vector<std::optional<PatchMatch>>& matches) {
+    found_.clear();
+    for (std::size_t i = 0; i < matches.size(); ++i) {
+      if (matches[i]) found_.push_back({tracks_[i].u, matches[i]->warp});
+    }
+  }
+
   static PatchMemory memory(const KltTrack& track) {
-    return {track.reference_is_here ? track.reference.get() : nullptr, track.window};
+    return {track.reference_is_here ? track.reference.get() : nullptr, track.window, track.age > 0};
   }
 
   [[nodiscard]] std::vector<FlowGuess> guesses(const KltTrack& track) const {
@@ -49,6 +67,7 @@ class TrackSearch {
       PatchWarp same;
       same.M = track.A;
       same.centre = track.u + track.flow;
+      guesses.push_back({same, kSteady});
       guesses.push_back({same, kPredicted});
     } else {
       add_neighbours(track, guesses);
@@ -68,8 +87,7 @@ class TrackSearch {
     distance.fill(kNeighbourhood * kNeighbourhood);
     std::size_t count = 0;
     for (std::size_t i = 0; i < found_.size(); ++i) {
-      if (!found_[i]) continue;
-      const double d = (tracks_[i].u - track.u).squaredNorm();
+      const double d = (found_[i].u1 - track.u).squaredNorm();
       if (d >= distance[1]) continue;
       const std::size_t slot = d < distance[0] ? 0 : 1;
       if (slot == 0) {
@@ -81,8 +99,8 @@ class TrackSearch {
       count = std::min<std::size_t>(count + 1, 2);
     }
     for (std::size_t k = 0; k < count; ++k) {
-      const PatchWarp& theirs = found_[nearest[k]]->warp;
-      const Eigen::Vector2d offset = track.u - tracks_[nearest[k]].u;
+      const PatchWarp& theirs = found_[nearest[k]].warp;
+      const Eigen::Vector2d offset = track.u - found_[nearest[k]].u1;
       PatchWarp warp;
       warp.M = theirs.M;
       warp.centre = theirs.centre + (offset.norm() < kSameSurface ? theirs.M * offset : offset);
@@ -93,7 +111,8 @@ class TrackSearch {
   const std::vector<KltTrack>& tracks_;
   const MotionPrediction& motion_;
   PatchFlow flow_;
-  std::vector<std::optional<PatchMatch>> matches_, found_;
+  std::vector<std::optional<PatchMatch>> matches_;
+  std::vector<Neighbour> found_;
 };
 
 }  // namespace
@@ -104,6 +123,13 @@ std::vector<std::optional<PatchMatch>> search_tracks(const std::vector<KltTrack>
                                                      const MotionPrediction& motion,
                                                      const KltOptions& options) {
   return TrackSearch(tracks, first, second, motion, options).run();
+}
+
+void search_lost_tracks(const std::vector<KltTrack>& tracks, const ImagePyramid& first,
+                        const ImagePyramid& second, const MotionPrediction& motion,
+                        const KltOptions& options,
+                        std::vector<std::optional<PatchMatch>>& matches) {
+  matches = TrackSearch(tracks, first, second, motion, options).again(std::move(matches));
 }
 
 }  // namespace oneac::internal

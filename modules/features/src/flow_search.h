@@ -15,5 +15,9 @@ namespace oneac::internal {
 [[nodiscard]] std::vector<std::optional<PatchMatch>> search_tracks(
     const std::vector<KltTrack>& tracks, const ImagePyramid& first, const ImagePyramid& second,
     const MotionPrediction& motion, const KltOptions& options);
+/// Once more the tracks that have no match yet, from the motion of the nearest that have one.
+void search_lost_tracks(const std::vector<KltTrack>& tracks, const ImagePyramid& first,
+                        const ImagePyramid& second, const MotionPrediction& motion,
+                        const KltOptions& options, std::vector<std::optional<PatchMatch>>& matches);
 
 }  // namespace oneac::internal

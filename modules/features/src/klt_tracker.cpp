@@ -18,6 +18,8 @@ namespace {
 constexpr double kReferenceScale = 1.5;
 constexpr int kRounds = 4;      // corners per cell before the search for corners ends
 constexpr double kMerge = 0.5;  // tracks nearer than half the corners' distance are one
+// An image with fewer corners (dark, blank) has nothing that other features would find.
+constexpr std::size_t kLeastCorners = 50;
 
 double median_flow(const std::vector<KltTrack>& tracks,
                    const std::vector<std::optional<PatchMatch>>& matches) {
@@ -31,6 +33,12 @@ double median_flow(const std::vector<KltTrack>& tracks,
   return *middle;
 }
 
+std::size_t count_corners(const CornerGrid& grid) {
+  std::size_t count = 0;
+  for (const auto& cell : grid.cells) count += cell.size();
+  return count;
+}
+
 void append(TrackedPair& pair, const KltTrack& track, const PatchMatch& match) {
   pair.acs.push_back({track.u, match.warp.centre, match.warp.M});
   pair.tracks.push_back(track.id);
@@ -41,7 +49,10 @@ void append(TrackedPair& pair, const KltTrack& track, const PatchMatch& match) {
 }  // namespace
 
 KltTracker::KltTracker(const FeatureOptions& options)
-    : options_(options), mask_(options.mask), static_points_(options.klt.static_frames) {}
+    : options_(options),
+      mask_(options.mask),
+      rematcher_(options),
+      static_points_(options.klt.static_frames) {}
 
 std::shared_ptr<const FrameFeatures> KltTracker::prepare(const ImageView& image) const {
   mask_.require_size(image.width, image.height);
@@ -68,7 +79,7 @@ TrackedPair KltTracker::advance(std::shared_ptr<const FrameFeatures> now, const 
       return stand();
     }
     const MotionPrediction motion(hint);
-    pair = take(*frame, motion, follow(*frame, motion));
+    pair = take(*frame, motion, follow(frame, motion));
   }
   anchor_ = frame;
   replenish(*frame);
@@ -87,8 +98,39 @@ TrackedPair KltTracker::stand() {
   return pair;
 }
 
-KltTracker::Matches KltTracker::follow(const KltFrame& now, const MotionPrediction& motion) const {
-  return search_tracks(tracks_, anchor_->pyramid, now.pyramid, motion, options_.klt);
+KltTracker::Matches KltTracker::follow(const std::shared_ptr<const KltFrame>& now,
+                                       const MotionPrediction& motion) {
+  Matches matches = search_tracks(tracks_, anchor_->pyramid, now->pyramid, motion, options_.klt);
+  if (!is_broken(matches, *now)) return matches;
+  add_rematches(now, matches);
+  search_lost_tracks(tracks_, anchor_->pyramid, now->pyramid, motion, options_.klt, matches);
+  return matches;
+}
+
+bool KltTracker::is_broken(const Matches& matches, const KltFrame& now) const {
+  const auto found = std::count_if(matches.begin(), matches.end(),
+                                   [](const auto& match) { return match.has_value(); });
+  return static_cast<double>(found) <
+             options_.klt.broken_share * static_cast<double>(tracks_.size()) &&
+         tracks_.size() >= kLeastCorners && count_corners(now.corners) >= kLeastCorners;
+}
+
+void KltTracker::add_rematches(const std::shared_ptr<const KltFrame>& now, Matches& matches) {
+  PointBins taken(now->pyramid.width(), now->pyramid.height(), options_.klt.min_distance_px);
+  for (const auto& match : matches) {
+    if (match) taken.add(match->warp.centre);
+  }
+  for (const Rematch& again : rematcher_.match(anchor_, now)) {
+    const Eigen::Vector2d& u2 = again.match.warp.centre;
+    if (!mask_.usable(again.u1) || !taken.is_free(u2, options_.klt.min_distance_px)) continue;
+    taken.add(u2);
+    KltTrack track;
+    track.id = next_id_++;
+    track.u = again.u1;
+    history_.start(track.id, frame_ - 1, track.u);
+    tracks_.push_back(std::move(track));
+    matches.push_back(again.match);
+  }
 }
 
 TrackedPair KltTracker::take(const KltFrame& now, const MotionPrediction& motion,
@@ -142,14 +184,15 @@ bool KltTracker::holds(KltTrack& track, const KltFrame& now, const PatchMatch& m
   return true;
 }
 
-void KltTracker::start_track(const KltFrame& now, const Eigen::Vector2d& u) {
+void KltTracker::start_track(const KltFrame& now, const Corner& corner) {
   KltTrack track;
   track.reference = std::make_unique<AnchoredPatch>();
-  if (!anchor_adapted(now.pyramid, u, *track.reference)) return;
+  const std::size_t window = window_for_corner(corner.score);
+  if (!anchor_adapted(now.pyramid, corner.u, *track.reference, window)) return;
   track.id = next_id_++;
-  track.u = u;
+  track.u = corner.u;
   track.reference_is_here = true;
-  history_.start(track.id, frame_, u);
+  history_.start(track.id, frame_, corner.u);
   tracks_.push_back(std::move(track));
 }
 
@@ -179,7 +222,7 @@ void KltTracker::replenish(const KltFrame& now) {
       if (!taken.is_free(corner.u, distance)) continue;
       taken.add(corner.u);
       ++in_cell[cell_of(now, corner.u)];
-      start_track(now, corner.u);
+      start_track(now, corner);
     }
   }
 }

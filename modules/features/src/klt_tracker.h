@@ -3,6 +3,7 @@
 #include "feature_mask.h"
 #include "klt_track.h"
 #include "patch_flow.h"
+#include "rematch.h"
 #include "static_points.h"
 #include "track_history.h"
 
@@ -18,7 +19,8 @@ namespace oneac::internal {
 ///
 /// Each pair is measured from the patch of the frame before, so errors do not add up in a pair; the
 /// first patch of a track only guards against drift. While the camera stands, the frame before the
-/// stop remains the anchor, so that creeping adds up instead of vanishing.
+/// stop remains the anchor, so that creeping adds up instead of vanishing. Where tracking breaks,
+/// SIFT finds the way: its matches start tracks and lead the lost ones.
 class KltTracker : public AcTracker {
  public:
   explicit KltTracker(const FeatureOptions& options);
@@ -34,17 +36,23 @@ class KltTracker : public AcTracker {
   using Matches = std::vector<std::optional<PatchMatch>>;
 
   [[nodiscard]] TrackedPair stand();
-  [[nodiscard]] Matches follow(const KltFrame& now, const MotionPrediction& motion) const;
+  [[nodiscard]] Matches follow(const std::shared_ptr<const KltFrame>& now,
+                               const MotionPrediction& motion);
+  /// Whether hardly any track was found although both images have texture.
+  [[nodiscard]] bool is_broken(const Matches& matches, const KltFrame& now) const;
+  /// Starts tracks at SIFT features of the anchor that were found again, with their matches.
+  void add_rematches(const std::shared_ptr<const KltFrame>& now, Matches& matches);
   [[nodiscard]] TrackedPair take(const KltFrame& now, const MotionPrediction& motion,
                                  const Matches& matches);
   [[nodiscard]] bool holds(KltTrack& track, const KltFrame& now, const PatchMatch& match) const;
   void replenish(const KltFrame& now);
-  void start_track(const KltFrame& now, const Eigen::Vector2d& u);
+  void start_track(const KltFrame& now, const Corner& corner);
   [[nodiscard]] int cell_px(const ImagePyramid& pyramid) const;
   [[nodiscard]] std::size_t cell_of(const KltFrame& frame, const Eigen::Vector2d& u) const;
 
   FeatureOptions options_;
   FeatureMask mask_;
+  Rematcher rematcher_;
   std::shared_ptr<const KltFrame> anchor_;
   std::vector<KltTrack> tracks_;  ///< oldest first
   TrackHistory history_;

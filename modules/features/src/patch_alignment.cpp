@@ -21,8 +21,13 @@ constexpr double kMaxGain = 2.0;          // and its inverse: exposure steps of 
 constexpr double kTukey = 4.685;          // [σ] 95 % efficiency under Gaussian noise
 constexpr double kMeanAbsolute = 1.2533;  // σ of a normal variable over its mean absolute value
 // Noise of smoothed images is correlated between neighbours; what survives the sum over a window is
-// the noise before smoothing: 1 / Σ k² of the binomial 3×3 kernel.
+// the noise before smoothing: 1 / Σ k² of the binomial 3×3 kernel. Every second row alone carries
+// half as much: each row of the image has the same weight in their sum, (1 + 1) / 4 or 2 / 4.
 constexpr double kCorrelation = 256.0 / 36.0;
+
+double noise_share(const PatchWindow& window) {
+  return 1.0 / static_cast<double>(window.row_step);
+}
 // The border is made up; windows of coarse levels may reach into it, those of level 0 must not.
 constexpr double kCoarseMargin = 12.0;
 
@@ -111,11 +116,12 @@ double step(Problem<kTranslationParameters>& problem, PatchWarp& warp) {
   return shift.norm();
 }
 
-/// Steps until the next one would be small: steps shrink by a factor from one to the next, so it is
-/// motion² / last. True also when they are still shrinking at the end: the gates that
-/// follow decide. False when the window leaves the image or is torn.
+/// Steps until the next one would be small: steps shrink by about the same `rate` from one to the
+/// next, which the second round of a patch takes over from the first. True also when they are still
+/// shrinking at the end: the gates that follow decide. False when the window leaves the image or is
+/// torn.
 template <std::size_t kCount>
-bool iterate(Problem<kCount>& problem, PatchWarp& warp, double converged) {
+bool iterate(Problem<kCount>& problem, PatchWarp& warp, double converged, double& rate) {
   const double radius = static_cast<double>(problem.window().radius);
   constexpr int kMaxIterations =
       kCount == kTranslationParameters ? kMaxShiftIterations : kMaxAffineIterations;
@@ -124,7 +130,8 @@ bool iterate(Problem<kCount>& problem, PatchWarp& warp, double converged) {
     if (!problem.look(warp)) return false;
     const double motion = step(problem, warp);
     if (!(motion < 2.0 * radius) || !(warp.M.determinant() > 0.0)) return false;
-    if (motion < converged || motion * motion < converged * last) break;
+    if (last > 0.0) rate = motion / last;
+    if (motion < converged || motion * rate < converged) break;
     last = motion;
   }
   return true;
@@ -152,7 +159,7 @@ void set_sigmas(const SpdInverse<kAffineParameters>& inverse, const AnchoredPatc
 }
 
 /// The second round: weights from the residuals of the first.
-bool refine_robustly(Problem<kAffineParameters>& problem, PatchWarp& warp,
+bool refine_robustly(Problem<kAffineParameters>& problem, PatchWarp& warp, double rate,
                      AlignmentQuality& quality) {
   const PatchWindow& window = problem.window();
   const double sigma = kMeanAbsolute * static_cast<double>(problem.sums.absolute) /
@@ -160,12 +167,13 @@ bool refine_robustly(Problem<kAffineParameters>& problem, PatchWarp& warp,
   alignas(64) float weights[kMaxSamples];
   const double cut = std::max(kTukey * sigma, 1e-6);
   patch_kernels().tukey(window, problem.residual, static_cast<float>(1.0 / cut), weights);
-  if (!problem.set_weights(weights) || !iterate(problem, warp, kConverged)) return false;
+  if (!problem.set_weights(weights) || !iterate(problem, warp, kConverged, rate)) return false;
   float kept = 0.0F;
   for (std::size_t i = 0; i < window.size; ++i) kept += weights[i];
   if (!(kept > 0.5F * window.weight_sum)) return false;
   const double variance = static_cast<double>(problem.sums.squares / kept);
-  set_sigmas(problem.inverse, problem.patch, std::sqrt(variance * kCorrelation), quality);
+  set_sigmas(problem.inverse, problem.patch,
+             std::sqrt(variance * kCorrelation * noise_share(window)), quality);
   return true;
 }
 
@@ -197,7 +205,9 @@ bool anchor_patch(const ImagePyramid& pyramid, std::size_t level, const PatchWin
 bool align_shift(const AnchoredPatch& patch, const ImagePyramid& image, PatchWarp& warp,
                  AlignmentQuality& quality) {
   Problem<kTranslationParameters> problem(patch, image);
-  if (!problem.set_weights(patch.window->weight) || !iterate(problem, warp, kRoughlyConverged))
+  double rate = HUGE_VAL;
+  if (!problem.set_weights(patch.window->weight) ||
+      !iterate(problem, warp, kRoughlyConverged, rate))
     return false;
   quality.zncc = zncc(*patch.window, problem.sums);
   return true;
@@ -211,9 +221,10 @@ bool align_affine(const AnchoredPatch& patch, const ImagePyramid& image, bool ro
   } else if (!problem.set_weights(patch.window->weight)) {
     return false;
   }
-  if (!iterate(problem, warp, kRoughlyConverged)) return false;
+  double rate = HUGE_VAL;
+  if (!iterate(problem, warp, kRoughlyConverged, rate)) return false;
   quality.zncc = zncc(*patch.window, problem.sums);
-  return !robust || refine_robustly(problem, warp, quality);
+  return !robust || refine_robustly(problem, warp, rate, quality);
 }
 
 double compare_patch(const AnchoredPatch& patch, const ImagePyramid& image, const PatchWarp& warp) {
@@ -227,7 +238,8 @@ double expected_affine_sigma(AnchoredPatch& patch) {
   patch.inverted = patch.inverse.set(upper);
   if (!patch.inverted) return HUGE_VAL;
   AlignmentQuality quality;
-  set_sigmas(patch.inverse, patch, kGrey / static_cast<double>(patch.patch.contrast), quality);
+  const double sigma = kGrey / static_cast<double>(patch.patch.contrast);
+  set_sigmas(patch.inverse, patch, sigma * std::sqrt(noise_share(*patch.window)), quality);
   return quality.affine_sigma;
 }
 

@@ -24,9 +24,17 @@ constexpr double kMaxDeformation = 0.6;  // [-] |A − A0|: beyond it the linear
 // 0.01.
 constexpr double kRadii[] = {8.0, 11.0, 14.0};
 constexpr double kGoodSigma = 0.0025;
+// The larger windows look at every second row: level 0 is smoothed, so that each row of the image
+// has the same weight in them and noise costs nothing more (patch_alignment.cpp).
+constexpr int kRowStep = 2;
 // With the window's size n the σ of an entry of A falls as n⁻²: (8/11)² is about a half. A patch
-// that is better than that may do with the next smaller window.
-constexpr double kShrinkSigma = 0.5 * kGoodSigma;
+// that is clearly better than that may do with the next smaller window, and will not swing back.
+constexpr double kShrinkSigma = 0.35 * kGoodSigma;
+// The same σ from a corner's score s, were its gradients those of the whole window: Σ w gx² x² / r²
+// is π r² / 6 times their mean square, and s sums (2 · 2 g)² over 7×7 pixels of level 1. A window
+// is passed over without a look when that is twice the bound.
+constexpr double kCornerSigma = 620.0;
+constexpr double kHopeless = 2.0;
 
 const PatchWindow& flow_window() {
   static const PatchWindow window = padded_window(kFlowRadius);
@@ -39,8 +47,9 @@ const PatchWindow& coarse_affine_window() {
 }
 
 const PatchWindow& fine_window(std::size_t i) {
-  static const std::array<PatchWindow, 3> windows = {
-      round_window(kRadii[0]), round_window(kRadii[1]), round_window(kRadii[2])};
+  static const std::array<PatchWindow, 3> windows = {round_window(kRadii[0]),
+                                                     round_window(kRadii[1], kRowStep),
+                                                     round_window(kRadii[2], kRowStep)};
   return windows[i];
 }
 
@@ -55,6 +64,13 @@ Eigen::Matrix2d shape(const Eigen::Matrix2d& M) {
 }
 
 }  // namespace
+
+std::size_t window_for_corner(float score) {
+  std::size_t i = 0;
+  const double best = kCornerSigma / std::sqrt(static_cast<double>(score));
+  while (i + 1 < std::size(kRadii) && best > kHopeless * kGoodSigma * kRadii[i] * kRadii[i]) ++i;
+  return i;
+}
 
 bool anchor_adapted(const ImagePyramid& image, const Eigen::Vector2d& u, AnchoredPatch& patch,
                     std::size_t window) {
@@ -135,15 +151,22 @@ std::optional<PatchMatch> PatchFlow::find(const Eigen::Vector2d& u1,
     origin = &guess;
     if (best.zncc > kFits) break;
   }
-  if (best.zncc < kDoubtful || !returns(u1, *origin, best.warp)) return std::nullopt;
+  if (best.zncc < kDoubtful) return std::nullopt;
+  if (!is_foretold(*origin, best.warp) && !returns(u1, *origin, best.warp)) return std::nullopt;
   return refine(u1, best.warp, memory);
+}
+
+bool PatchFlow::is_foretold(const FlowGuess& guess, const PatchWarp& found) const {
+  return guess.level == 1 &&
+         (found.centre - guess.warp.centre).norm() <= options_.forward_backward_px;
 }
 
 std::optional<PatchMatch> PatchFlow::refine(const Eigen::Vector2d& u1, const PatchWarp& start,
                                             const PatchMemory& memory) {
   AnchoredPatch patch;
   PatchMatch match{start, {}};
-  if (first_.levels.size() > 1 && anchor_patch(first_, 1, coarse_affine_window(), u1, patch)) {
+  if (!memory.knows_shape && first_.levels.size() > 1 &&
+      anchor_patch(first_, 1, coarse_affine_window(), u1, patch)) {
     PatchWarp warp = start;
     if (align_affine(patch, second_, false, warp, match.quality) &&
         match.quality.zncc >= options_.min_zncc) {

@@ -12,7 +12,7 @@
 namespace oneac::internal {
 
 /// A place to start looking: the warp expected, and the pyramid level whose capture range (about
-/// half a window, 3 px · 2^level) covers its error.
+/// half a window, 3 px · 2^level) covers its error. Level 1 is for a patch's own last motion.
 struct FlowGuess {
   PatchWarp warp;
   std::size_t level = 0;
@@ -29,6 +29,7 @@ struct PatchMatch {
 struct PatchMemory {
   const AnchoredPatch* patch = nullptr;  ///< made by anchor_adapted() at this place, or none
   std::size_t window = 0;                ///< else the window to try first
+  bool knows_shape = false;              ///< guesses carry its A: no coarse alignment needed
 };
 
 /// Finds one patch of the first image in the second.
@@ -55,6 +56,9 @@ class PatchFlow {
 
   [[nodiscard]] const AnchoredPatch* patch_at(std::size_t level, const PatchWarp& here);
   [[nodiscard]] std::optional<Found> descend(const Eigen::Vector2d& u1, const FlowGuess& guess);
+  /// Whether the patch lies where its own motion was to bring it: prediction and image agree, which
+  /// is what the way back would show.
+  [[nodiscard]] bool is_foretold(const FlowGuess& guess, const PatchWarp& found) const;
   [[nodiscard]] bool returns(const Eigen::Vector2d& u1, const FlowGuess& guess,
                              const PatchWarp& found) const;
 
@@ -69,5 +73,7 @@ class PatchFlow {
 /// affinity well.
 [[nodiscard]] bool anchor_adapted(const ImagePyramid& image, const Eigen::Vector2d& u,
                                   AnchoredPatch& patch, std::size_t window = 0);
+/// The window to try first at a corner of this score (corner_grid.h).
+[[nodiscard]] std::size_t window_for_corner(float score);
 
 }  // namespace oneac::internal

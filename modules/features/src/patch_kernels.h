@@ -19,10 +19,15 @@ struct PatchWindow {
   std::size_t size = 0;  ///< multiple of kPatchLanes
   float radius = 0.0F;   ///< [px]
   float weight_sum = 0.0F;
-  std::size_t rows = 0;             ///< 2 floor(radius) + 1, the samples come row by row
+  std::size_t rows = 0;             ///< the samples come row by row
+  std::size_t row_step = 1;         ///< [px] from a row to the next
   std::size_t row_begin[kMaxRows];  ///< first column of a row, from the left of the square one
                                     ///< pixel wider than the window
   std::size_t row_size[kMaxRows];
+
+  /// [px] of the outermost rows from the centre.
+  [[nodiscard]] int reach() const { return static_cast<int>((rows - 1) * row_step / 2); }
+
   alignas(64) float x[kMaxSamples];       ///< [px]
   alignas(64) float y[kMaxSamples];       ///< [px]
   alignas(64) float weight[kMaxSamples];  ///< [-]

@@ -53,7 +53,7 @@ inline void residuals(const SampleGrid& grid, const PatchWindow& window, const P
 inline void shift_residuals(const SampleGrid& grid, const PatchWindow& window,
                             const PatchTemplate& patch, float gain, float bias,
                             AlignmentSums& out) {
-  const ShiftedRows rows(grid, static_cast<int>(window.rows / 2));
+  const ShiftedRows rows(grid, window.reach());
   PartialSums<5> sums;
   const float inverse_gain = 1.0F / gain;
   const std::size_t width = window.row_size[0];

@@ -85,7 +85,7 @@ inline bool is_shift(const SampleGrid& grid) {
 inline void pick_samples(const PatchWindow& window, const float* square, PatchTemplate& patch) {
   std::size_t next = 0;
   for (std::size_t y = 0; y < window.rows; ++y) {
-    const float* row = square + (y + 1) * kPatchStride + window.row_begin[y];
+    const float* row = square + (y * window.row_step + 1) * kPatchStride + window.row_begin[y];
     for (std::size_t x = 0; x < window.row_size[y]; x += kWidth) {
       const float* at = row + x;
       const std::size_t to = next + x;
@@ -131,7 +131,7 @@ inline float variance(const PatchWindow& window, const PatchTemplate& patch) {
 
 inline void make_template(const SampleGrid& grid, const PatchWindow& window, PatchTemplate& patch) {
   alignas(64) float square[kPatchRows * kPatchStride];
-  const int reach = static_cast<int>(window.rows / 2) + 1;
+  const int reach = window.reach() + 1;
   if (is_shift(grid)) {
     interpolate_square(grid, reach, square);
   } else {

@@ -11,11 +11,12 @@ constexpr double kMaxReach = 60.0;  // [px]
 
 }  // namespace
 
-PatchWindow round_window(double radius) {
+PatchWindow round_window(double radius, int row_step) {
   PatchWindow window;
   window.radius = static_cast<float>(radius);
+  window.row_step = static_cast<std::size_t>(row_step);
   const int reach = static_cast<int>(std::floor(radius));
-  for (int y = -reach; y <= reach; ++y) {
+  for (int y = -reach; y <= reach; y += row_step) {
     const std::size_t before = window.size;
     const int half = static_cast<int>(std::floor(std::sqrt(radius * radius - y * y)));
     for (int x = -half; x <= half; ++x) {

@@ -10,8 +10,9 @@
 namespace oneac::internal {
 
 /// A round window; the weight falls from 1 in the centre to 1/2 on the rim, so that what lies
-/// farther from the point counts less and entering samples do not jump.
-[[nodiscard]] PatchWindow round_window(double radius);
+/// farther from the point counts less and entering samples do not jump. With row_step 2 every
+/// second row is left out. @pre floor(radius) is a multiple of row_step, or odd and row_step 2
+[[nodiscard]] PatchWindow round_window(double radius, int row_step = 1);
 /// The same with rows of equal length, a multiple of kPatchLanes: outside the disc the weight is 0.
 /// Samples can then be read as they lie in the image. @pre radius below 10
 [[nodiscard]] PatchWindow padded_window(double radius);

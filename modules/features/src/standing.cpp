@@ -15,35 +15,45 @@ constexpr double kLeastShare = 0.75;
 // Near road moves several times as far as the median point when the car creeps.
 constexpr double kNearFactor = 3.0;
 
-std::vector<double> shifts_of_sample(const std::vector<KltTrack>& tracks, const ImagePyramid& first,
-                                     const ImagePyramid& second, std::size_t& asked) {
+struct Sample {
+  std::size_t asked = 0;
+  std::vector<double> shifts;  ///< [px] of those that were found near where they were
+};
+
+std::size_t needed_of(std::size_t asked) {
+  return static_cast<std::size_t>(std::ceil(kLeastShare * static_cast<double>(asked)));
+}
+
+/// Ends as soon as more moved than a standing picture allows: a driving car costs a quarter.
+Sample look_where_they_were(const std::vector<KltTrack>& tracks, const ImagePyramid& first,
+                            const ImagePyramid& second, double near_px) {
   static const PatchWindow window = padded_window(kRadius);
   const std::size_t step = std::max<std::size_t>(1, tracks.size() / kSample);
-  std::vector<double> shifts;
+  const std::size_t planned = (tracks.size() + step - 1) / step;
+  Sample sample;
   AnchoredPatch patch;
   for (std::size_t i = 0; i < tracks.size(); i += step) {
     if (!anchor_patch(first, 0, window, tracks[i].u, patch)) continue;
-    ++asked;
+    ++sample.asked;
     PatchWarp warp;
     warp.centre = tracks[i].u;
     AlignmentQuality quality;
-    if (!align_shift(patch, second, warp, quality) || quality.zncc < kSameZncc) continue;
-    shifts.push_back((warp.centre - tracks[i].u).norm());
+    const bool found = align_shift(patch, second, warp, quality) && quality.zncc >= kSameZncc;
+    const double shift = (warp.centre - tracks[i].u).norm();
+    if (found && shift < near_px) sample.shifts.push_back(shift);
+    if (sample.asked - sample.shifts.size() > planned - needed_of(planned)) break;
   }
-  return shifts;
+  return sample;
 }
 
 }  // namespace
 
 bool is_standing(const std::vector<KltTrack>& tracks, const ImagePyramid& first,
                  const ImagePyramid& second, double standing_px) {
-  std::size_t asked = 0;
-  std::vector<double> shifts = shifts_of_sample(tracks, first, second, asked);
-  if (asked < kLeastTracks) return false;
-  const auto needed = static_cast<std::size_t>(std::ceil(kLeastShare * static_cast<double>(asked)));
-  if (shifts.size() < needed) return false;
-  std::sort(shifts.begin(), shifts.end());
-  return shifts[asked / 2] < standing_px && shifts[needed - 1] < kNearFactor * standing_px;
+  Sample sample = look_where_they_were(tracks, first, second, kNearFactor * standing_px);
+  if (sample.asked < kLeastTracks || sample.shifts.size() < needed_of(sample.asked)) return false;
+  std::sort(sample.shifts.begin(), sample.shifts.end());
+  return sample.shifts[sample.asked / 2] < standing_px;
 }
 
 }  // namespace oneac::internal

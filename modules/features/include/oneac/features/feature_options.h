@@ -35,8 +35,11 @@ struct KltOptions {
   double min_zncc = 0.8;           ///< [-] 0.8: a fifth of the contrast is unexplained
   double max_affine_sigma = 0.05;  ///< [-] 1σ of an entry of A; worse ones are refused
   double drift_zncc = 0.7;         ///< [-] against the first patch of the track
-  double standing_px = 0.15;       ///< [px] median shift of near-identical images
-  int static_frames = 5;           ///< a point that stays that long while it must move is no scene
+  /// [-] of all tracks: where fewer are found, tracking broke and SIFT looks again; 0: never. Half
+  /// of them survive three times the usual step.
+  double broken_share = 0.2;
+  double standing_px = 0.15;  ///< [px] median shift of near-identical images
+  int static_frames = 5;      ///< a point that stays that long while it must move is no scene
 
   void validate() const;
 };
@@ -87,6 +90,7 @@ void describe(Visitor&& visit, KltOptions& o) {
   visit("min_zncc", o.min_zncc, "-", "least correlation of aligned patches");
   visit("max_affine_sigma", o.max_affine_sigma, "-", "largest 1-sigma of an entry of A");
   visit("drift_zncc", o.drift_zncc, "-", "least correlation with a track's first patch");
+  visit("broken_share", o.broken_share, "-", "share of tracks found below which SIFT looks again");
   visit("standing_px", o.standing_px, "px", "median shift of near-identical images");
   visit("static_frames", o.static_frames, "frames", "points at rest for so long are dropped");
 }
