@@ -2,9 +2,9 @@
 
 #include "camera_selection.h"
 #include "external_images.h"
-#include "image_decoding.h"
 #include "log_reader.h"
 #include "reference_collector.h"
+#include "stored_image.h"
 #include "undistortion.h"
 
 #include "oneac/base/error.h"
@@ -20,11 +20,18 @@ namespace {
 
 constexpr double kReferenceTail = 2.0;  // [s] read past the last image: two epochs of a 1 Hz GPS
 
-/// What a ticket carries: the file of an external image, or the pixels of a stored one.
+/// What a ticket carries.
 struct Payload {
-  std::filesystem::path file;
-  mrpt::img::CImage pixels;
+  StoredImage image;
+  std::optional<StoredImage> right;
+  double baseline_m = 0.0;
   Eigen::Isometry3d T_vehicle_cam;
+};
+
+/// The image of the camera and, of a pair, that of its right half.
+struct Sight {
+  CameraView view;
+  std::optional<CameraView> right;
 };
 
 // Reads the beginning of the log until the camera is clear.
@@ -59,10 +66,11 @@ class RawlogSource::Impl {
 
  private:
   [[nodiscard]] PinholeCamera calibration() const;
-  [[nodiscard]] std::optional<CameraView> take(const LogRecord& record);
+  [[nodiscard]] std::optional<Sight> take(const LogRecord& record);
   [[nodiscard]] bool is_selected(std::size_t index) const;
-  [[nodiscard]] std::optional<FrameTicket> ticket_of(const CameraView& view,
-                                                     const LogRecord& record);
+  [[nodiscard]] std::optional<FrameTicket> ticket_of(const Sight& sight, const LogRecord& record);
+  void add_right(const CameraView& right, std::size_t record, Payload& payload);
+  [[nodiscard]] GreyImage decoded(const StoredImage& image, const std::string& ticket_name) const;
   [[nodiscard]] std::string where(std::size_t record) const;
   void check_calibration(const CameraView& view, std::size_t record) const;
   void complete_report();
@@ -90,7 +98,12 @@ RawlogSource::Impl::Impl(const SourceOptions& options)
       calibration_(calibration()),
       rectified_(!calibration_.is_distorted()),
       undistorter_(calibration_),
-      reader_(options.log) {}
+      reader_(options.log) {
+  if (!options_.stereo || chosen_.side == CameraView::Side::left) return;
+  throw InputError(options_.log.string() + ": camera '" + chosen_.name + "'",
+                   "it is not the left one of a stereo pair",
+                   "set front_end.scale.source to height, gps or none");
+}
 
 PinholeCamera RawlogSource::Impl::calibration() const {
   if (!options_.calibration.empty()) {
@@ -105,14 +118,18 @@ std::string RawlogSource::Impl::where(std::size_t record) const {
 }
 
 // Books the record; its view by the chosen camera, if it has one.
-std::optional<CameraView> RawlogSource::Impl::take(const LogRecord& record) {
+std::optional<Sight> RawlogSource::Impl::take(const LogRecord& record) {
   collector_.add(*record.observation);
+  std::optional<Sight> sight;
   for (auto& view : camera_views(*record.observation)) {
-    if (view.name() != chosen_.name) continue;
-    ++report_.images_in_log;
-    return view;
+    if (view.name() == chosen_.name) {
+      ++report_.images_in_log;
+      sight.emplace(Sight{view, std::nullopt});
+    } else if (sight && options_.stereo && view.side == CameraView::Side::right) {
+      sight->right = view;  // it comes behind the left one
+    }
   }
-  return std::nullopt;
+  return sight;
 }
 
 bool RawlogSource::Impl::is_selected(std::size_t index) const {
@@ -122,9 +139,9 @@ bool RawlogSource::Impl::is_selected(std::size_t index) const {
 std::optional<FrameTicket> RawlogSource::Impl::next() {
   if (options_.count != 0 && delivered_ == options_.count) return std::nullopt;
   while (const auto record = reader_.next()) {
-    const auto view = take(*record);
-    if (!view || !is_selected(report_.images_in_log - 1)) continue;
-    auto ticket = ticket_of(*view, *record);
+    const auto sight = take(*record);
+    if (!sight || !is_selected(report_.images_in_log - 1)) continue;
+    auto ticket = ticket_of(*sight, *record);
     if (!ticket) continue;
     ++delivered_;
     last_time_ = ticket->time_s;
@@ -134,28 +151,35 @@ std::optional<FrameTicket> RawlogSource::Impl::next() {
   return std::nullopt;
 }
 
-std::optional<FrameTicket> RawlogSource::Impl::ticket_of(const CameraView& view,
+// Rows correspond only when both images were rectified together; this program does not do it.
+void RawlogSource::Impl::add_right(const CameraView& right, std::size_t record, Payload& payload) {
+  const auto baseline = rectified_baseline(right, calibration_, !options_.calibration.empty());
+  if (!baseline) {
+    throw InputError(where(record), "the images of the stereo pair are not rectified",
+                     "rectify them, or set front_end.scale.source to height, gps or none");
+  }
+  payload.right = stored_image(right, images_);
+  payload.baseline_m = payload.right ? *baseline : 0.0;
+}
+
+std::optional<FrameTicket> RawlogSource::Impl::ticket_of(const Sight& sight,
                                                          const LogRecord& record) {
+  const CameraView& view = sight.view;
   check_calibration(view, record.number);
   FrameTicket ticket;
   ticket.index = report_.images_in_log - 1;
-  ticket.name = "record " + std::to_string(record.number);
-  auto payload = std::make_shared<Payload>();
-  bool present = false;
-  if (view.image->isExternallyStored()) {
-    const std::string stored_name = view.image->getExternalStorageFile();
-    ticket.name = std::filesystem::path(stored_name).filename().string();
-    const auto file = images_.find(stored_name);
-    present = file.has_value();
-    payload->file = file.value_or(std::filesystem::path());
-  } else {
-    present = !view.image->isEmpty();
-    if (present) payload->pixels = view.image->makeShallowCopy();
-  }
-  if (!present) {
+  ticket.name =
+      view.image->isExternallyStored()
+          ? std::filesystem::path(view.image->getExternalStorageFile()).filename().string()
+          : "record " + std::to_string(record.number);
+  auto image = stored_image(view, images_);
+  if (!image) {
     if (report_.images_missing++ == 0) report_.first_missing = ticket.name;
     return std::nullopt;
   }
+  auto payload = std::make_shared<Payload>();
+  payload->image = std::move(*image);
+  if (sight.right) add_right(*sight.right, record.number, *payload);
   if (record.observation->timestamp == INVALID_TIMESTAMP) {
     throw InputError(where(record.number), "the image has no time stamp",
                      "restamp the log with rawlog-edit");
@@ -174,18 +198,21 @@ void RawlogSource::Impl::check_calibration(const CameraView& view, std::size_t r
                    "cut the log there, or give one with --calibration FILE[:SECTION]");
 }
 
+GreyImage RawlogSource::Impl::decoded(const StoredImage& image,
+                                      const std::string& ticket_name) const {
+  const std::string in_log = options_.log.string() + ": " + ticket_name;
+  return undistorter_.rectify(image.grey(in_log), image.name(in_log));
+}
+
 CameraFrame RawlogSource::Impl::load(const FrameTicket& ticket) const {
   const auto& payload = *static_cast<const Payload*>(ticket.payload.get());
   CameraFrame frame;
   {
     const StageTimer timer(frame.decode_ms);
-    const bool external = !payload.file.empty();
-    const std::string name =
-        external ? payload.file.string() : options_.log.string() + ": " + ticket.name;
-    const cv::Mat grey = external ? decode_grey_file(payload.file)
-                                  : to_grey(compat::pixels_of(payload.pixels), name);
-    frame.image = undistorter_.rectify(grey, name);
+    frame.image = decoded(payload.image, ticket.name);
+    if (payload.right) frame.right = decoded(*payload.right, ticket.name + " (right)");
   }
+  frame.baseline_m = payload.baseline_m;
   frame.index = ticket.index;
   frame.time_s = ticket.time_s;
   frame.name = ticket.name;

@@ -1,5 +1,7 @@
 #include "reference_collector.h"
 
+#include "log_reader.h"
+
 #include "oneac/mrpt_compat/observations.h"
 
 #include <mrpt/obs/CObservationGPS.h>
@@ -23,15 +25,17 @@ using RMC = mrpt::obs::gnss::Message_NMEA_RMC;
 using mrpt::obs::CObservationGPS;
 using mrpt::obs::CObservationIMU;
 
+/// Turned from the sensor's axes into the vehicle's.
 std::optional<Eigen::Vector3d> vector_of(const CObservationIMU& imu,
                                          const std::array<mrpt::obs::TIMUDataIndex, 3>& fields) {
-  Eigen::Vector3d v;
+  mrpt::math::TPoint3D in_sensor;
   for (std::size_t i = 0; i < fields.size(); ++i) {
     if (!imu.has(fields[i])) return std::nullopt;
-    v[static_cast<Eigen::Index>(i)] = imu.get(fields[i]);
+    in_sensor[i] = imu.get(fields[i]);
   }
-  if (!v.allFinite()) return std::nullopt;
-  return v;
+  const mrpt::math::TPoint3D v = imu.sensorPose.rotateVector(in_sensor);
+  if (!std::isfinite(v.x + v.y + v.z)) return std::nullopt;
+  return Eigen::Vector3d(v.x, v.y, v.z);
 }
 
 std::optional<ImuSample> sample_of(const CObservationIMU& imu) {
@@ -125,6 +129,13 @@ std::vector<GpsFix> ReferenceCollector::to_fixes(const Readings& epochs) {
     fixes.push_back(fix);
   }
   return fixes;
+}
+
+VehicleReference read_vehicle_reference(const std::filesystem::path& log) {
+  LogReader reader(log);
+  ReferenceCollector collector;
+  while (const auto record = reader.next()) collector.add(*record->observation);
+  return collector.build();
 }
 
 VehicleReference ReferenceCollector::build() const {

@@ -107,5 +107,19 @@ TEST(ReferenceCollector, ReadsWhatAnImuHas) {
   EXPECT_FALSE(samples[0].acceleration) << "two of its axes are not in the log";
 }
 
+TEST(ReferenceCollector, TurnsAnImuIntoTheVehiclesAxes) {
+  ReferenceCollector collector;
+  mrpt::obs::CObservationIMU imu;
+  imu.timestamp = mrpt::Clock::fromDouble(kStart);
+  imu.sensorPose = mrpt::poses::CPose3D(1.0, 2.0, 3.0, M_PI / 2, 0.0, 0.0);  // its X is the left
+  imu.set(mrpt::obs::IMU_X_ACC, 2.0);
+  imu.set(mrpt::obs::IMU_Y_ACC, 0.5);
+  imu.set(mrpt::obs::IMU_Z_ACC, 9.8);
+  collector.add(imu);
+  const auto samples = collector.build().imu;
+  ASSERT_EQ(samples.size(), 1U);
+  EXPECT_TRUE(samples[0].acceleration->isApprox(Eigen::Vector3d(-0.5, 2.0, 9.8)));
+}
+
 }  // namespace
 }  // namespace oneac

@@ -22,6 +22,7 @@ struct SourceOptions {
   std::size_t first = 0;                  ///< first image of the camera to use
   std::size_t count = 0;                  ///< images to use at most; 0: all
   std::size_t every = 1;                  ///< use every K-th image from `first` on; ≥ 1
+  bool stereo = false;  ///< load the right image beside the left one, where it exists
 
   /// @throws InputError naming flag, value and bound
   void validate() const;
@@ -47,7 +48,8 @@ class RawlogSource {
  public:
   /// Opens the log and selects the camera.
   /// @throws InputError (no such file, empty, not a rawlog, no images, no such camera, no images in
-  ///         the images dir, unreadable calibration); labels and sections that exist are listed
+  ///         the images dir, unreadable calibration); labels and sections that exist are listed;
+  ///         with `stereo` also when the camera is not the left one of a rectified pair
   explicit RawlogSource(const SourceOptions& options);
   ~RawlogSource();
   RawlogSource(RawlogSource&&) noexcept;

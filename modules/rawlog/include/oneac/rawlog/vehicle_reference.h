@@ -2,6 +2,7 @@
 
 #include <Eigen/Core>
 
+#include <filesystem>
 #include <optional>
 #include <vector>
 
@@ -15,7 +16,7 @@ struct GpsFix {
   std::optional<double> course;                 ///< direction of travel, clockwise from north [rad]
 };
 
-/// One IMU sample in the sensor's axes.
+/// One IMU sample in the vehicle's axes.
 struct ImuSample {
   double time_s = 0.0;                          ///< Unix time [s]
   std::optional<Eigen::Vector3d> acceleration;  ///< [m/s²]
@@ -33,5 +34,9 @@ struct VehicleReference {
   /// Speed integrated over [t0, t1] by the trapezium rule [m]; empty when speeds do not cover it.
   [[nodiscard]] std::optional<double> distance(double t0, double t1) const;
 };
+
+/// What GPS and IMU say over a whole log, images passed over; of a damaged log what can be read.
+/// @throws InputError (no such file, not a rawlog)
+[[nodiscard]] VehicleReference read_vehicle_reference(const std::filesystem::path& log);
 
 }  // namespace oneac
