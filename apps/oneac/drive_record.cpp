@@ -1,9 +1,17 @@
 #include "drive_record.h"
 
+#include <algorithm>
 #include <iterator>
 #include <utility>
 
 namespace oneac::app {
+
+bool DriveRecord::has_scale() const {
+  // A standing step has zero metres without any scale.
+  return std::any_of(frames.begin(), frames.end(), [](const FrameResult& frame) {
+    return frame.step && frame.step->metric && frame.step->status == StepStatus::kOk;
+  });
+}
 
 void DriveRecord::take(Settled settled) {
   for (const SettledFrame& frame : settled.frames) {

@@ -32,6 +32,8 @@ struct DriveRecord {
   bool interrupted = false;
   std::string failure;  ///< one line when an image stopped the run early, else ""
 
+  /// Whether lengths are metres, at least from some step on.
+  [[nodiscard]] bool has_scale() const;
   /// Takes over what has become final.
   void take(Settled settled);
   /// The camera on the vehicle: as the log says, with the pitch and roll of `tilt`.

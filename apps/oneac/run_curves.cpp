@@ -15,10 +15,6 @@ constexpr double kNone = std::numeric_limits<double>::quiet_NaN();  // leaves a 
 constexpr double kScaleStretch = 20.0;
 constexpr double kStanding = 0.5;  // [m/s] below which the course of a GPS is noise
 
-bool has_scale(const DriveRecord& record) {
-  return record.camera_height > 0.0;
-}
-
 /// Seconds since the first frame.
 double seconds(const DriveRecord& record, double time_s) {
   return time_s - record.frames.front().time_s;
@@ -57,11 +53,11 @@ bool is_during(const DriveRecord& record, double time_s) {
 }
 
 SeriesPlot speed_plot(const DriveRecord& record, const ReferenceTrack& track) {
-  SeriesPlot plot{"Speed", "time [s]", has_scale(record) ? "m/s" : "units/s", {}, true};
+  SeriesPlot plot{"Speed", "time [s]", record.has_scale() ? "m/s" : "units/s", {}, true};
   plot.series.push_back(per_step(record, "estimate", [](std::size_t, const StepResult& step) {
     return step.length / (step.time2 - step.time1);
   }));
-  if (!has_scale(record)) return plot;  // a reference in metres would squeeze it
+  if (!record.has_scale()) return plot;  // a reference in metres would squeeze it
   add_reference(record, track, plot, [](const Eigen::Isometry3d& a, const Eigen::Isometry3d& b) {
     return (b.translation() - a.translation()).norm();
   });
@@ -143,7 +139,7 @@ SeriesPlot scale_plot(const DriveRecord& record, const ReferenceTrack& track) {
       per_step(record, "1σ of a metric length", [](std::size_t, const StepResult& step) {
         return step.metric && step.length_sigma > 0.0 ? 100.0 * step.length_sigma : kNone;
       }));
-  if (!track.poses.empty() && has_scale(record)) {
+  if (!track.poses.empty() && record.has_scale()) {
     plot.series.push_back(scale_error(record, track));
   }
   return plot;

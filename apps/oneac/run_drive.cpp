@@ -20,20 +20,27 @@ struct Prepared {
   double decode_ms = 0.0;
 };
 
+SourceOptions source_options(const RunOptions& options) {
+  SourceOptions source = options.source.for_log(options.log);
+  source.stereo = options.front_end.scale.source == "stereo";
+  return source;
+}
+
 /// What GPS and IMU say, read before the images when the front-end is to use it.
 VehicleReference read_ahead(const RunOptions& options) {
   if (options.front_end.tilt.source != "imu" && options.front_end.scale.source != "gps") return {};
-  RawlogSource source(options.source.for_log(options.log));
-  source.finish();
-  return source.report().reference;
+  return read_vehicle_reference(options.log);
 }
 
-/// Hands the front-end the speeds up to the time of the next frame, in order.
+// [s] speeds are handed over so far ahead of the images: the fix behind a moment is known, too.
+constexpr double kLookAhead = 1.5;
+
+/// Hands the front-end the speeds of the log, in order.
 class SpeedFeeder {
  public:
   explicit SpeedFeeder(const std::vector<GpsFix>& fixes) : fixes_(fixes) {}
   void feed_until(double time_s, FrontEnd& front_end) {
-    for (; next_ < fixes_.size() && fixes_[next_].time_s <= time_s; ++next_) {
+    for (; next_ < fixes_.size() && fixes_[next_].time_s <= time_s + kLookAhead; ++next_) {
       const GpsFix& fix = fixes_[next_];
       if (fix.speed) front_end.add_speed(fix.time_s, *fix.speed);
     }
@@ -60,13 +67,16 @@ void remember_first(const CameraFrame& frame, const FrontEnd& front_end, DriveRe
 }  // namespace
 
 DriveRecord run_drive(const RunOptions& options, const RunObserver& observer) {
-  RawlogSource source(options.source.for_log(options.log));
+  RawlogSource source(source_options(options));
   FrontEndOptions front_end_options = options.front_end;
   front_end_options.seed = static_cast<std::size_t>(options.run.seed);
   FrontEnd front_end(front_end_options);
   const VehicleReference sensors = read_ahead(options);
   for (const ImuSample& sample : sensors.imu) {
-    if (sample.acceleration) front_end.add_acceleration(*sample.acceleration);
+    if (!sample.acceleration) continue;
+    const auto yaw_rate =
+        sample.angular_rate ? std::optional(sample.angular_rate->z()) : std::nullopt;
+    front_end.add_acceleration(sample.time_s, *sample.acceleration, yaw_rate);
   }
   SpeedFeeder speeds(sensors.gps);
   DriveRecord record;

@@ -51,10 +51,12 @@ std::vector<std::string> notes_about(const DriveRecord& record) {
     notes.push_back(std::to_string(record.out_of_order) +
                     " images do not lie after the one before in time and were left out");
   }
-  if (!(record.camera_height > 0.0)) {
-    notes.push_back(
-        "the height of the camera is not known, so nothing is in metres; set "
-        "front_end.camera_height");
+  if (!record.has_scale() && record.frames.size() > 1) {
+    notes.emplace_back(
+        record.camera_height > 0.0
+            ? "the road was nowhere seen well enough to measure by, so nothing is in metres"
+            : "neither the height of the camera nor a speed is known, so nothing is in metres; set "
+              "front_end.camera_height, or front_end.scale.source: gps");
   }
   const auto predicted =
       std::count_if(record.frames.begin(), record.frames.end(), [](const FrameResult& frame) {

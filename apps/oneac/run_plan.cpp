@@ -101,8 +101,8 @@ PlanView plan_of(const DriveRecord& record, const RunEvaluation& evaluation) {
   const auto used = std::find_if(overlays.begin(), overlays.end(),
                                  [](const Overlay& o) { return o.path.points.size() > 1; });
   double factor = 1.0;
-  if (!(record.camera_height > 0.0) && used == overlays.end()) plan.unit = "units";
-  if (!(record.camera_height > 0.0) && used != overlays.end()) {
+  if (!record.has_scale() && used == overlays.end()) plan.unit = "units";
+  if (!record.has_scale() && used != overlays.end()) {
     factor = align_in_plane(used->estimate, used->path.points, true).scale;
   }
   scale(way.points, factor);

@@ -77,7 +77,7 @@ void add_tables(HtmlPage& page, const Json& summary) {
 HtmlPage::Rows tiles_of(const DriveRecord& record, const RunEvaluation& evaluation,
                         const Json& summary) {
   HtmlPage::Rows tiles;
-  const bool scaled = record.camera_height > 0.0;
+  const bool scaled = record.has_scale();
   tiles.emplace_back("frames", std::to_string(record.frames.size()));
   tiles.emplace_back(scaled ? "path [m]" : "path [units]", value_text(summary["path_length"]));
   tiles.emplace_back("steps in metres", value_text(summary["metric"]));

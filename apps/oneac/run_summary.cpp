@@ -95,7 +95,7 @@ std::size_t count_status(const DriveRecord& record, StepStatus status) {
 std::string metric_word(const DriveRecord& record) {
   const std::size_t metric = count_steps(record, [](const StepResult& s) { return s.metric; });
   const std::size_t steps = record.frames.empty() ? 0 : record.frames.size() - 1;
-  if (!(record.camera_height > 0.0) || metric == 0) return "none";
+  if (!record.has_scale()) return "none";
   return metric == steps ? "all" : "partly";
 }
 

@@ -1,6 +1,7 @@
 #include "oneac/frontend/front_end.h"
 
 #include "odometry.h"
+#include "stereo_depths.h"
 
 #include "oneac/base/thread_clock.h"
 #include "oneac/frontend/observation_input.h"
@@ -92,10 +93,12 @@ FrameResult FrontEnd::process(PreparedFrame prepared) {
     const StageTimer timer(features_ms);
     TrackedPair pair = tracker_->advance(std::move(prepared.features), hint());
     tracks = normalised(pair, previous_camera_, frame);
+    if (options_.scale.source == "stereo") add_stereo_depths(frame, pair, tracks);
     correspondences_ = std::move(pair);
   }
   previous_camera_ = frame.camera;
   prepared.frame.image = {};
+  prepared.frame.right = {};
   if (!started_) {
     started_ = true;
     return odometry_->start(frame);
@@ -128,7 +131,8 @@ MotionHint FrontEnd::hint() const {
 std::optional<FrameResult> FrontEnd::feed(const mrpt::obs::CObservation::Ptr& observation) {
   if (!observation) throw std::invalid_argument("FrontEnd::feed: observation = null");
   if (const auto acceleration = acceleration_from_observation(*observation)) {
-    add_acceleration(*acceleration);
+    add_acceleration(mrpt::Clock::toDouble(observation->timestamp), *acceleration,
+                     yaw_rate_from_observation(*observation));
   } else if (const auto speed = speed_from_observation(*observation)) {
     add_speed(mrpt::Clock::toDouble(observation->timestamp), *speed);
   }
@@ -143,8 +147,9 @@ std::optional<FrameResult> FrontEnd::feed(const mrpt::obs::CObservation::Ptr& ob
   return process(prepare(std::move(*frame)));
 }
 
-void FrontEnd::add_acceleration(const Eigen::Vector3d& acceleration) {
-  odometry_->add_acceleration(acceleration);
+void FrontEnd::add_acceleration(double time_s, const Eigen::Vector3d& acceleration,
+                                std::optional<double> yaw_rate) {
+  odometry_->add_inertial({time_s, acceleration, yaw_rate});
 }
 
 void FrontEnd::add_speed(double time_s, double speed_mps) {

@@ -40,8 +40,9 @@ void WindowOptions::validate() const {
 }
 
 void ScaleOptions::validate() const {
-  require(source == "height" || source == "gps" || source == "none", "scale.source", source,
-          "height, gps or none");
+  const bool known =
+      source == "height" || source == "stereo" || source == "gps" || source == "none";
+  require(known, "scale.source", source, "height, stereo, gps or none");
   require(map_drift > 0.0, "scale.map_drift", std::to_string(map_drift), "positive");
   require(max_uncertainty > 0.0, "scale.max_uncertainty", std::to_string(max_uncertainty),
           "positive");

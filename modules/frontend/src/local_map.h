@@ -1,5 +1,6 @@
 #pragma once
 
+#include "speed_scale.h"
 #include "track_store.h"
 
 #include "oneac/frontend/keyframe.h"
@@ -54,6 +55,8 @@ class LocalMap {
   void add_keyframe(std::size_t frame, const RelativePose& T_cam_map);
   /// Adjusts the window; true when it took part.
   bool refine(const Eigen::Matrix3d& R_level_cam);
+  /// Scale of the map by depths in the newest keyframe that were measured otherwise.
+  [[nodiscard]] std::optional<ScaleMeasurement> compare_depths(const StepTracks& step) const;
   /// Correspondences between the last keyframe and one before it.
   [[nodiscard]] KeyframePair pair_with(std::size_t steps_back) const;
   /// Multiplies all lengths, the oldest keyframe staying where it is.

@@ -11,6 +11,7 @@
 #include <opencv2/imgproc.hpp>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <utility>
 
@@ -18,6 +19,11 @@ namespace oneac {
 namespace {
 
 constexpr double kKnot = 1852.0 / 3600.0;  // [m/s]
+// A rectified pair: half an angle between the cameras [rad], other baselines than along X [-],
+// difference between the calibrations [px].
+constexpr double kParallel = 1e-3;
+constexpr double kSideways = 0.01;
+constexpr double kSamePixel = 0.1;
 
 /// The parts of an image observation.
 struct View {
@@ -63,11 +69,14 @@ cv::Mat grey(const cv::Mat& pixels) {
   return out;
 }
 
+bool is_straight(const mrpt::img::TCamera& camera) {
+  return camera.distortion == mrpt::img::DistortionModel::none ||
+         std::all_of(camera.dist.begin(), camera.dist.end(), [](double v) { return v == 0.0; });
+}
+
 cv::Mat rectified(const cv::Mat& pixels, const mrpt::img::TCamera& camera) {
   const auto& k = camera.dist;
-  const bool straight = camera.distortion == mrpt::img::DistortionModel::none ||
-                        std::all_of(k.begin(), k.end(), [](double v) { return v == 0.0; });
-  if (straight) return pixels;
+  if (is_straight(camera)) return pixels;
   if (camera.distortion != mrpt::img::DistortionModel::plumb_bob) {
     throw InputError("image observation", "the lens model is not plumb-bob", "rectify the images");
   }
@@ -104,6 +113,41 @@ cv::Mat loaded(const mrpt::img::CImage& image) {
   }
 }
 
+/// The right image of a rectified pair: equal cameras side by side. Any other is left out.
+void add_right_image(const mrpt::obs::CObservation& observation, CameraFrame& frame) {
+  const auto* pair = dynamic_cast<const mrpt::obs::CObservationStereoImages*>(&observation);
+  if (pair == nullptr || !pair->hasImageRight) return;
+  const auto& T = pair->rightCameraPose;
+  const bool beside = T.x() > 0.0 && std::hypot(T.y(), T.z()) < kSideways * T.x() &&
+                      std::abs(T.quat().r()) > std::cos(kParallel);
+  const auto& left = pair->leftCamera;
+  const auto& right = pair->rightCamera;
+  const double off = std::abs(left.fx() - right.fx()) + std::abs(left.fy() - right.fy()) +
+                     std::abs(left.cx() - right.cx()) + std::abs(left.cy() - right.cy());
+  if (!beside || off > kSamePixel || !is_straight(left) || !is_straight(right)) return;
+  const cv::Mat pixels = loaded(pair->imageRight);
+  if (pixels.depth() == CV_8U && pixels.cols == frame.image.width() &&
+      pixels.rows == frame.image.height()) {
+    frame.right = copied(grey(pixels));
+    frame.baseline_m = T.x();
+  }
+  if (pair->imageRight.isExternallyStored()) pair->imageRight.unload();
+}
+
+/// Three fields of an IMU, turned into the vehicle's axes.
+std::optional<Eigen::Vector3d> in_vehicle(const mrpt::obs::CObservation& observation,
+                                          const std::array<mrpt::obs::TIMUDataIndex, 3>& fields) {
+  const auto* imu = dynamic_cast<const mrpt::obs::CObservationIMU*>(&observation);
+  if (imu == nullptr) return std::nullopt;
+  Eigen::Vector3d in_sensor;
+  for (std::size_t axis = 0; axis < fields.size(); ++axis) {
+    if (!imu->has(fields[axis])) return std::nullopt;
+    in_sensor(static_cast<Eigen::Index>(axis)) = imu->get(fields[axis]);
+  }
+  if (!in_sensor.allFinite()) return std::nullopt;
+  return rotation_of(imu->sensorPose) * in_sensor;
+}
+
 }  // namespace
 
 std::optional<CameraFrame> frame_from_observation(const mrpt::obs::CObservation& observation) {
@@ -118,22 +162,21 @@ std::optional<CameraFrame> frame_from_observation(const mrpt::obs::CObservation&
   frame.image = copied(rectified(grey(pixels), *view->camera));
   frame.T_vehicle_cam = mount_of(view->pose);
   if (view->image->isExternallyStored()) view->image->unload();
+  add_right_image(observation, frame);
   return frame;
 }
 
 std::optional<Eigen::Vector3d> acceleration_from_observation(
     const mrpt::obs::CObservation& observation) {
-  const auto* imu = dynamic_cast<const mrpt::obs::CObservationIMU*>(&observation);
-  if (imu == nullptr) return std::nullopt;
-  Eigen::Vector3d acceleration;
-  const mrpt::obs::TIMUDataIndex fields[] = {mrpt::obs::IMU_X_ACC, mrpt::obs::IMU_Y_ACC,
-                                             mrpt::obs::IMU_Z_ACC};
-  for (int axis = 0; axis < 3; ++axis) {
-    if (!imu->has(fields[axis])) return std::nullopt;
-    acceleration(axis) = imu->get(fields[axis]);
-  }
-  if (!acceleration.allFinite()) return std::nullopt;
-  return rotation_of(imu->sensorPose) * acceleration;
+  return in_vehicle(observation,
+                    {mrpt::obs::IMU_X_ACC, mrpt::obs::IMU_Y_ACC, mrpt::obs::IMU_Z_ACC});
+}
+
+std::optional<double> yaw_rate_from_observation(const mrpt::obs::CObservation& observation) {
+  const auto rates =
+      in_vehicle(observation, {mrpt::obs::IMU_WX, mrpt::obs::IMU_WY, mrpt::obs::IMU_WZ});
+  if (!rates) return std::nullopt;
+  return rates->z();
 }
 
 std::optional<double> speed_from_observation(const mrpt::obs::CObservation& observation) {

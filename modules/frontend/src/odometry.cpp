@@ -52,6 +52,7 @@ FrameResult Odometry::start(const CameraFrame& frame) {
     settling_.add_frame(0, *result.keyframe, {});
     keyframe_time_ = frame.time_s;
   }
+  speeds_.restart(frame.time_s);
   frames_ = 1;
   previous_ = frame;
   return result;
@@ -76,7 +77,7 @@ FrameResult Odometry::advance(const CameraFrame& frame, const StepTracks& tracks
     follow(tracks, found, step);
     set_length(tracks, found, frame, step);
     move(step);
-    update_map(frame, step, result);
+    update_map(frame, tracks, step, result);
   }
   step.segment = segment_;
   result.step = step;
@@ -153,6 +154,7 @@ void Odometry::restart(const StepTracks& tracks, const TwoView& found) {
   settling_.add_keyframe(id, {previous_.index, previous_.time_s, segment_, false, 0.0});
   map_->extend(tracks, found.inliers);
   keyframe_time_ = previous_.time_s;
+  speeds_.restart(previous_.time_s);
 }
 
 void Odometry::set_length(const StepTracks& tracks, const TwoView& found, const CameraFrame& frame,
@@ -183,6 +185,7 @@ void Odometry::move(const StepResult& step) {
   if (motion.t.norm() > 0.0) motion.t *= step.length / motion.t.norm();
   T_cam_map_ = orthonormalised(motion * T_cam_map_);
   last_motion_ = motion;
+  speeds_.add_step(step.time2, step.length);
   if (step.status == StepStatus::kOk) tilt_->add_step(step.pose);
   const double seconds = step.time2 - step.time1;
   if (step.metric && seconds > 0.0) {
@@ -191,16 +194,17 @@ void Odometry::move(const StepResult& step) {
   }
 }
 
-void Odometry::update_map(const CameraFrame& frame, StepResult& step, FrameResult& result) {
+void Odometry::update_map(const CameraFrame& frame, const StepTracks& tracks, StepResult& step,
+                          FrameResult& result) {
   if (!map_) return;
   // A camera that only turns adds no baseline: its keyframe would triangulate noise.
   if (step.status == StepStatus::kOk &&
       map_->needs_keyframe(T_cam_map_, frame.time_s - keyframe_time_)) {
     map_->add_keyframe(frames_, T_cam_map_);
-    keyframe_gap_ = frame.time_s - std::exchange(keyframe_time_, frame.time_s);
+    keyframe_time_ = frame.time_s;
     static_cast<void>(map_->refine(tilt_->leveling()));
     scale_.drift();
-    measure_scale(frame.camera.focal_px(), step);
+    measure_scale(tracks, frame.camera.focal_px(), step);
     T_cam_map_ = map_->keyframes().back().T_cam_map;
     result.keyframe = map_->keyframes().back().id;
     settling_.add_keyframe(*result.keyframe, {frame.index, frame.time_s, segment_, false, 0.0});

@@ -1,7 +1,9 @@
 #pragma once
 
+#include "gravity_estimator.h"
 #include "local_map.h"
 #include "settling.h"
+#include "speed_scale.h"
 #include "track_store.h"
 
 #include "oneac/frontend/frame_result.h"
@@ -29,8 +31,8 @@ class Odometry {
   /// Settles what is left; the next frame is a first one.
   [[nodiscard]] Settled finish();
 
-  /// Specific force in the vehicle frame [m/s²], for the tilt source "imu".
-  void add_acceleration(const Eigen::Vector3d& acceleration);
+  /// For the tilt source "imu".
+  void add_inertial(const InertialReading& reading);
   /// Speed over ground, for the scale source "gps".
   void add_speed(double time_s, double speed_mps);
 
@@ -59,9 +61,11 @@ class Odometry {
   void follow(const StepTracks& tracks, const TwoView& found, StepResult& step);
   void restart(const StepTracks& tracks, const TwoView& found);
   void move(const StepResult& step);
-  void update_map(const CameraFrame& frame, StepResult& step, FrameResult& result);
-  void measure_scale(double focal_px, StepResult& step);
-  void measure_by_speed();
+  void update_map(const CameraFrame& frame, const StepTracks& tracks, StepResult& step,
+                  FrameResult& result);
+  void measure_scale(const StepTracks& tracks, double focal_px, StepResult& step);
+  [[nodiscard]] std::optional<ScaleMeasurement> measure_by_road(double focal_px, StepResult& step);
+  [[nodiscard]] std::optional<ScaleMeasurement> measure_by_speed();
   [[nodiscard]] Tilt given_tilt() const;
   void rescale(double factor);
 
@@ -71,10 +75,8 @@ class Odometry {
   ScaleFilter scale_;
   double camera_height_ = 0.0;
   Eigen::Matrix3d R_vehicle_cam_ = Eigen::Matrix3d::Identity();
-  Eigen::Vector3d acceleration_sum_ = Eigen::Vector3d::Zero();  ///< [m/s²]
-  std::size_t accelerations_ = 0;
-  double speed_ = 0.0;          ///< [m/s] over ground, at ...
-  double speed_time_ = -1e300;  ///< [s]
+  GravityEstimator gravity_;
+  SpeedScale speeds_;
 
   std::optional<LocalMap> map_;
   Settled pending_;  ///< since the last result
@@ -84,7 +86,6 @@ class Odometry {
   std::size_t segment_ = 0;
   bool lost_ = false;               ///< the last step was not carried by its images
   double keyframe_time_ = 0.0;      ///< [s] of the last keyframe
-  double keyframe_gap_ = 0.0;       ///< [s] between the last two
   RelativePose T_cam_map_;          ///< newest frame; the map's frame is the first camera's
   RelativePose last_motion_;        ///< T_2_1 of the last step, length as used
   double last_metric_speed_ = 0.0;  ///< [m/s]

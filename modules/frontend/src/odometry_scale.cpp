@@ -12,16 +12,10 @@ namespace {
 constexpr double kDegree = 3.14159265358979323846 / 180.0;
 // [-] share of the inlier bound taken as 1σ of a point's position.
 constexpr double kSigmaOfThreshold = 0.5;
-// A receiver's Doppler speed [m/s, 1σ]; a usual change of speed [m/s²]; a speed older than a GPS
-// epoch [s] or slower than walking [m/s] measures no scale.
-constexpr double kSpeedSigma = 0.1;
-constexpr double kUsualAcceleration = 1.0;
-constexpr double kOldestSpeed = 1.1;
-constexpr double kSlowestSpeed = 1.5;
 // [m] first step of a car that moves off, for want of better; the road corrects it.
 constexpr double kFirstStep = 0.05;
-// Samples of an accelerometer whose mean beats the log's mounting.
-constexpr std::size_t kEnoughAccelerations = 10;
+// [rad] 1σ of a vehicle against the horizon, over the minutes of a drive.
+constexpr double kLevelVehicle = 1.0 * kDegree;
 
 }  // namespace
 
@@ -47,37 +41,39 @@ double Odometry::held_length(double seconds, double time, bool found_motion) con
   return begins && found_motion ? kFirstStep : held;
 }
 
-void Odometry::measure_scale(double focal_px, StepResult& step) {
-  if (options_.scale.source == "gps") measure_by_speed();
-  if (!(camera_height_ > 0.0)) return;
+void Odometry::measure_scale(const StepTracks& tracks, double focal_px, StepResult& step) {
+  const std::string& source = options_.scale.source;
+  const auto measured = source == "gps"      ? measure_by_speed()
+                        : source == "stereo" ? map_->compare_depths(tracks)
+                                             : measure_by_road(focal_px, step);
+  if (measured) rescale(scale_.correct(measured->ratio, measured->sigma));
+}
+
+std::optional<ScaleMeasurement> Odometry::measure_by_road(double focal_px, StepResult& step) {
+  if (!(camera_height_ > 0.0)) return std::nullopt;
   const KeyframePair pair = map_->pair_with(1);
-  if (!(pair.T_2_1.t.norm() > 0.0)) return;
+  if (!(pair.T_2_1.t.norm() > 0.0)) return std::nullopt;
   const double sigma = kSigmaOfThreshold * options_.consensus.threshold_px / focal_px;
   const auto road = ground_scale(pair.acs, std::vector<bool>(pair.acs.size(), true), pair.T_2_1,
                                  tilt_->leveling(), sigma, options_.ground_scale);
-  if (!road) return;
+  if (!road) return std::nullopt;
   step.ground_acs = road->support;
   const double ratio = road->baseline * camera_height_ / pair.T_2_1.t.norm();
-  rescale(scale_.correct(ratio, road->uncertainty));
+  return ScaleMeasurement{ratio, road->uncertainty};
 }
 
-void Odometry::measure_by_speed() {
-  const double length = map_->pair_with(1).T_2_1.t.norm();
-  const double age = std::abs(keyframe_time_ - 0.5 * keyframe_gap_ - speed_time_);
-  if (!(length > 0.0) || age > kOldestSpeed || speed_ < kSlowestSpeed) return;
-  const double sigma = std::hypot(kSpeedSigma, kUsualAcceleration * age) / speed_;
-  rescale(scale_.correct(speed_ * keyframe_gap_ / length, sigma));
+std::optional<ScaleMeasurement> Odometry::measure_by_speed() {
+  const auto over_an_epoch = speeds_.measure();
+  return over_an_epoch || scale_.is_metric() ? over_an_epoch : speeds_.first_guess();
 }
 
-void Odometry::add_acceleration(const Eigen::Vector3d& acceleration) {
-  acceleration_sum_ += acceleration;
-  ++accelerations_;
+void Odometry::add_inertial(const InertialReading& reading) {
+  gravity_.add(reading);
   if (tilt_ && options_.tilt.source == "imu") tilt_->set_given(given_tilt());
 }
 
 void Odometry::add_speed(double time_s, double speed_mps) {
-  speed_ = speed_mps;
-  speed_time_ = time_s;
+  speeds_.add_speed(time_s, speed_mps);
 }
 
 Tilt Odometry::given_tilt() const {
@@ -86,15 +82,22 @@ Tilt Odometry::given_tilt() const {
     return {options_.tilt.pitch_up_deg * kDegree, options_.tilt.roll_right_deg * kDegree};
   }
   if (source == "drive") return {};
-  const bool sampled = accelerations_ >= kEnoughAccelerations;
-  if (source == "imu" && sampled) return tilt_from_gravity(R_vehicle_cam_, acceleration_sum_);
-  return tilt_from_mounting(R_vehicle_cam_);
+  const Tilt log = tilt_from_mounting(R_vehicle_cam_);
+  const auto up = gravity_.up();
+  if (source != "imu" || !up) return log;
+  // Weighed against the mounting on a level vehicle, which slopes and load make a degree uncertain.
+  const Tilt felt = tilt_from_gravity(R_vehicle_cam_, *up);
+  const double off = gravity_.sigma() / kLevelVehicle;
+  const double trust = 1.0 / (1.0 + off * off);
+  return {log.pitch_up + trust * (felt.pitch_up - log.pitch_up),
+          log.roll_right + trust * (felt.roll_right - log.roll_right)};
 }
 
 void Odometry::rescale(double factor) {
   if (factor == 1.0) return;
   map_->rescale(factor);
   settling_.rescale(factor);
+  speeds_.rescale(factor);
   last_motion_.t *= factor;
 }
 

@@ -41,14 +41,21 @@ struct Track {
   [[nodiscard]] const Sighting* sighting(std::size_t keyframe) const;
 };
 
+/// A depth that was measured otherwise than by the motion.
+struct MeasuredDepth {
+  double z = 0.0;      ///< [m]; 0: none
+  double sigma = 0.0;  ///< relative 1σ
+};
+
 /// Correspondences of one step, normalised, with the tracks that they belong to.
 struct StepTracks {
   std::vector<AffineCorrespondence> acs;
   std::vector<std::uint64_t> tracks;
-  std::vector<double> point_sigma;   ///< [-]; 0: unknown
-  std::vector<double> affine_sigma;  ///< [-]; 0: unknown
-  std::vector<std::uint8_t> grey;    ///< of the second image there; may be empty
-  bool standing = false;             ///< the images are near-identical
+  std::vector<double> point_sigma;    ///< [-]; 0: unknown
+  std::vector<double> affine_sigma;   ///< [-]; 0: unknown
+  std::vector<std::uint8_t> grey;     ///< of the second image there; may be empty
+  std::vector<MeasuredDepth> depths;  ///< of the points in the second image; empty: none
+  bool standing = false;              ///< the images are near-identical
 };
 
 using TrackMap = std::map<std::uint64_t, Track>;  // ordered: the same sums in every run

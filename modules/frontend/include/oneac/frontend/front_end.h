@@ -51,9 +51,12 @@ class FrontEnd : public mrpt::system::COutputLogger {
   /// that is not later than the last are passed over.
   /// @throws InputError for an image without usable calibration
   std::optional<FrameResult> feed(const std::shared_ptr<mrpt::obs::CObservation>& observation);
-  /// Specific force in the vehicle frame [m/s²]: gravity, for tilt.source "imu".
-  void add_acceleration(const Eigen::Vector3d& acceleration);
-  /// Speed over ground, for scale.source "gps".
+  /// Specific force in the vehicle frame [m/s²]: gravity, for tilt.source "imu"; with the yaw rate
+  /// [rad/s], where there is one, turns do not count as leaning.
+  void add_acceleration(double time_s, const Eigen::Vector3d& acceleration,
+                        std::optional<double> yaw_rate = std::nullopt);
+  /// Speed over ground in time order, for scale.source "gps"; offline a second or two ahead of the
+  /// images.
   void add_speed(double time_s, double speed_mps);
   /// CPU time of the stages so far, by name.
   [[nodiscard]] const mrpt::system::CTimeLogger& profiler() const { return profiler_; }

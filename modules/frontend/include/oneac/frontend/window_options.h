@@ -38,7 +38,8 @@ void describe(Visitor&& visit, WindowOptions& o) {
 
 /// Where metres come from. validate() throws std::invalid_argument.
 struct ScaleOptions {
-  /// "height": road and camera height; "gps": speeds given to FrontEnd; "none"
+  /// "height": road and camera height; "stereo": the right images' depths; "gps": speeds given to
+  /// FrontEnd; "none"
   std::string source = "height";
   double map_drift = 0.01;        ///< [-] 1σ of the map's scale gained from keyframe to keyframe:
                                   ///< a hundred landmarks whose depths are 10 % off
@@ -51,7 +52,8 @@ struct ScaleOptions {
 
 template <class Visitor>
 void describe(Visitor&& visit, ScaleOptions& o) {
-  visit("source", o.source, "name", "height: road and camera height; gps: speed; none");
+  visit("source", o.source, "name",
+        "height: road and camera height; stereo: right images; gps: speed; none");
   visit("map_drift", o.map_drift, "-", "1-sigma of the map's scale, keyframe to keyframe");
   visit("max_uncertainty", o.max_uncertainty, "-", "relative 1-sigma that counts as metric");
   visit("outlier_sigmas", o.outlier_sigmas, "sigma", "measurements beyond it are left out");

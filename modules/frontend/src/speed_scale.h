@@ -1,0 +1,50 @@
+#pragma once
+
+#include <cstddef>
+#include <deque>
+#include <optional>
+
+namespace oneac {
+
+/// True length over length in the map, with its relative 1σ.
+struct ScaleMeasurement {
+  double ratio = 0.0;
+  double sigma = 0.0;
+};
+
+/// Measures the map's scale by speeds over ground: the way between two fixes, by the trapezium
+/// rule, against the length that the map gives it. Each interval counts once, so the errors of
+/// successive measurements are nearly independent.
+class SpeedScale {
+ public:
+  /// Speeds in time order; they may lie ahead of the images (offline) or behind (a live receiver).
+  void add_speed(double time_s, double speed_mps);
+  /// The camera was `length` farther at `time_s`.
+  void add_step(double time_s, double length);
+  /// What came before is not connected with what follows.
+  void restart(double time_s);
+  /// Multiplies the lengths so far.
+  void rescale(double factor);
+  /// Since the last call: the way between fixes that both lie within the steps.
+  [[nodiscard]] std::optional<ScaleMeasurement> measure();
+  /// A first guess before there are two fixes: the speed at a moment within the steps, against
+  /// the map's speed around it.
+  [[nodiscard]] std::optional<ScaleMeasurement> first_guess() const;
+
+ private:
+  struct Sample {
+    double time_s;
+    double value;  ///< speed [m/s], or length from the start [map]
+  };
+  struct Speed {
+    double value;
+    double sigma;
+  };
+  [[nodiscard]] double length_at(double time_s) const;
+  [[nodiscard]] std::optional<Speed> speed_at(double time_s) const;
+
+  std::deque<Sample> speeds_;
+  std::deque<Sample> way_;
+};
+
+}  // namespace oneac
