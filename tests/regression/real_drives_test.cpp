@@ -82,6 +82,45 @@ TEST(Malaga07, RunsNativelyFromItsOriginalRawlog) {
               0.03);
 }
 
+/// Metres by the speeds of the GPS, nothing known of the camera's height.
+TEST(Malaga07, TakesItsMetresFromTheGps) {
+  const std::string data = data_folder() + "/malaga-07/";
+  const TemporaryFolder folder;
+  const std::string out = folder.path().string();
+  const ProgramResult run =
+      run_program({ONEAC_PROGRAM, "run", data + "malaga-urban-dataset-extract-07_CAM_GPS.rawlog",
+                   "-o", out, "--camera", "right", "--calibration",
+                   data + "camera_params_rectified_a=0_1024x768.txt:CAMERA_RIGHT", "--set",
+                   "front_end.scale.source=gps"});
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  const auto summary = nlohmann::json::parse(read_text(out + "/summary.json"));
+  EXPECT_EQ(summary["camera_height_m"].get<double>(), 0.0) << "the road took part";
+  EXPECT_GE(summary["counts"]["steps_metric"].get<int>(), 140);
+  const auto& gps = summary["reference"]["gps"];
+  EXPECT_NEAR(gps["estimated_distance"].get<double>() / gps["gps_distance_m"].get<double>(), 1.0,
+              0.03);
+}
+
+/// The accelerometer, without help from the drive, against the drive, without the accelerometer.
+TEST(Malaga07, IsLevelledByItsImu) {
+  const TemporaryFolder folder;
+  const std::string log = (folder.path() / "malaga-07.rawlog").string();
+  const ProgramResult import =
+      run_program({ONEAC_PROGRAM, "import", "malaga", data_folder() + "/malaga-07", "-o", log});
+  ASSERT_EQ(import.exit_code, 0) << import.err;
+  const auto pitch = [&](const std::string& source, const std::string& refine) {
+    const std::string out = (folder.path() / source).string();
+    const ProgramResult run =
+        run_program({ONEAC_PROGRAM, "run", log, "-o", out, "--camera", "right", "--params",
+                     params("malaga.yaml"), "--set", "front_end.tilt.source=" + source, "--set",
+                     "front_end.tilt.refine=" + refine});
+    EXPECT_EQ(run.exit_code, 0) << run.err;
+    const auto summary = nlohmann::json::parse(read_text(out + "/summary.json"));
+    return summary["camera"]["tilt_used_last"]["pitch_up_deg"].get<double>();
+  };
+  EXPECT_NEAR(pitch("imu", "false"), pitch("drive", "true"), 0.5);
+}
+
 TEST(Kitti03, MeetsItsBoundsOnConsecutiveFrames) {
   const TemporaryFolder folder;
   const std::string log = (folder.path() / "kitti-03.rawlog").string();

@@ -9,12 +9,19 @@
 #include <nlohmann/json.hpp>
 
 #include <cmath>
+#include <fstream>
+#include <iterator>
 #include <memory>
 
 namespace oneac {
 namespace {
 
 constexpr double kDegree = 3.14159265358979323846 / 180.0;
+
+std::string read_text(const std::string& path) {
+  std::ifstream in(path);
+  return {std::istreambuf_iterator<char>(in), {}};
+}
 
 /// The demo's drive: `oneac simulate`, then `oneac run`, both with their defaults.
 class SimulatedDrive : public ::testing::Test {
@@ -106,6 +113,34 @@ TEST(HardDrive, IsNeverLostAndKeepsItsMetres) {
   }
   EXPECT_GE(standing, 60);
   EXPECT_LT(moved_while_standing, 0.02);
+}
+
+/// Metres by the baseline alone: the camera's height is not in the log.
+TEST(StereoDrive, IsInMetresByItsBaseline) {
+  const TemporaryFolder folder;
+  const std::string drive = (folder.path() / "drive").string();
+  const std::string log = drive + "/simulated.rawlog", out = (folder.path() / "out").string();
+  ASSERT_EQ(run_program({ONEAC_PROGRAM, "simulate", "-o", drive, "--frames", "120", "--stereo",
+                         "--camera-height", "1.2"})
+                .exit_code,
+            0);
+  const ProgramResult run = run_program({ONEAC_PROGRAM, "run", log, "-o", out, "--camera", "left",
+                                         "--set", "front_end.scale.source=stereo"});
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  const auto summary = nlohmann::json::parse(read_text(out + "/summary.json"));
+  EXPECT_EQ(summary["camera_height_m"].get<double>(), 0.0) << "the road took part";
+  const Evaluation evaluation =
+      evaluate_run(read_relative_poses(out + "/relative_poses.csv"),
+                   read_kitti(out + "/trajectory_camera.kitti"), read_kitti(drive + "/poses.txt"));
+  const PairSummary& pairs = *evaluation.pair_summary;
+  EXPECT_GE(static_cast<double>(pairs.metric), 0.95 * static_cast<double>(pairs.moving));
+  EXPECT_LE(pairs.length->median, 0.03);
+  EXPECT_LE(std::abs(*evaluation.trajectory->scale_error), 0.02);
+
+  const ProgramResult wrong = run_program({ONEAC_PROGRAM, "run", log, "-o", out, "--camera",
+                                           "right", "--set", "front_end.scale.source=stereo"});
+  EXPECT_EQ(wrong.exit_code, 2);
+  EXPECT_NE(wrong.err.find("not the left one of a stereo pair"), std::string::npos) << wrong.err;
 }
 
 }  // namespace
