@@ -1,7 +1,19 @@
 #pragma once
 
-// Every difference between MRPT versions in observations and images, in one place. Written for
-// 2.5.8; a port to a newer release is a matter of this header and of find_package.
+// Every difference between MRPT versions in observations and images, in one place (rtti.h has that
+// of the class factory's macro). Written for and tested with 2.5.8; compiles by design up to 2.15.
+//
+// What a port to 3.x needs, by its porting guide; none of it could be tried here:
+//  1. CMake: find_package(mrpt_obs) instead of (mrpt-obs), targets mrpt::mrpt_obs instead of
+//     mrpt::obs: the top CMakeLists.txt, those of mrpt_compat, rawlog, frontend, initialisers and
+//     apps/oneac, cmake/OneacInstall.cmake (names of the exported packages), OneacPlugin.cmake.
+//  2. CImage holds no OpenCV matrix: pixels_of() below. Check there the names of depth and stride,
+//     and the order of the channels of colour images: OpenCV's is blue first.
+//  3. apps/oneac/run_gui.cpp: mrpt::opengl's scene objects are mrpt::viz's, in headers
+//     mrpt/viz/…, COpenGLScene is Scene. Without mrpt_gui the program builds without --gui.
+//  4. CRawlog's entry types are a scoped enum; getSensorPose() and the like return by value, with
+//     the old forms deprecated: warnings, and so errors in our presets. Library code uses neither.
+//  5. TCLAP and mrpt::vision are gone; oneac uses neither.
 
 #include <mrpt/core/Clock.h>
 #include <mrpt/img/CImage.h>
