@@ -82,6 +82,7 @@ FrameResult Odometry::advance(const CameraFrame& frame, const StepTracks& tracks
   step.segment = segment_;
   result.step = step;
   result.T_first_cam = camera_in_first(T_cam_map_);
+  result.T_first_cam.translation() += settling_.offset();
   previous_ = frame;
   ++frames_;
   return result;
@@ -203,7 +204,7 @@ void Odometry::update_map(const CameraFrame& frame, const StepTracks& tracks, St
     map_->add_keyframe(frames_, T_cam_map_);
     keyframe_time_ = frame.time_s;
     static_cast<void>(map_->refine(tilt_->leveling()));
-    scale_.drift();
+    settling_.drift(scale_.drift());
     measure_scale(tracks, frame.camera.focal_px(), step);
     T_cam_map_ = map_->keyframes().back().T_cam_map;
     result.keyframe = map_->keyframes().back().id;

@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <limits>
+#include <utility>
 
 namespace oneac {
 namespace {
@@ -11,8 +12,10 @@ constexpr int kPatience = 5;
 
 }  // namespace
 
-void ScaleFilter::drift() {
-  variance_ += options_.map_drift * options_.map_drift;
+double ScaleFilter::drift() {
+  const double before =
+      std::exchange(variance_, variance_ + options_.map_drift * options_.map_drift);
+  return known_ ? before / variance_ : 1.0;
 }
 
 void ScaleFilter::lose() {

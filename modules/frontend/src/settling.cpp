@@ -2,6 +2,8 @@
 
 #include <Eigen/Cholesky>
 
+#include <cmath>
+
 namespace oneac {
 namespace {
 
@@ -51,7 +53,16 @@ void Settling::set_metric(bool metric, double scale_sigma) {
   }
 }
 
+void Settling::drift(double share) {
+  for (auto& [id, note] : notes_) note.share *= share;
+}
+
 void Settling::rescale(double factor) {
+  const double change = std::log(factor);
+  for (auto& [id, note] : notes_) {
+    // The map is rescaled about its oldest keyframe: the step that ends there keeps its length.
+    if (id != notes_.begin()->first) note.log_factor += (note.share - 1.0) * change;
+  }
   for (Waiting& waiting : frames_) waiting.T_cam_keyframe.t *= factor;
 }
 
@@ -66,25 +77,38 @@ void Settling::settle_oldest(LocalMap& map, Settled& settled) {
   keyframe.time_s = note.time_s;
   keyframe.segment = note.segment;
   keyframe.metric = note.metric;
-  keyframe.T_first_cam = in_first_camera(oldest.T_cam_map);
   if (T_last_map_) {
-    const RelativePose T = oldest.T_cam_map * T_last_map_->inverse();
+    RelativePose T = oldest.T_cam_map * T_last_map_->inverse();
+    const Eigen::Vector3d step = oldest.T_cam_map.inverse().t - T_last_map_->inverse().t;
+    offset_ += (std::exp(note.log_factor) - 1.0) * step;
+    T.t *= std::exp(note.log_factor);
     // A map that began anew is tied to the one before by a guess only.
     if (note.segment != last_segment_) constraint_.setZero();
     const double sigma = note.metric ? note.scale_sigma : 0.0;
     keyframe.information = as_g2o(constraint_, T, sigma);
   }
+  keyframe.T_first_cam = in_first_camera(oldest.T_cam_map);
+  keyframe.T_first_cam.translation() += offset_;
   constraint_ = map.oldest_constraint();
   T_last_map_ = oldest.T_cam_map;
   last_segment_ = note.segment;
   keyframe.points = map.retire_oldest();
-  while (!frames_.empty() && frames_.front().keyframe <= oldest.id) {
-    const Waiting& waiting = frames_.front();
-    settled.frames.push_back(
-        {waiting.frame, in_first_camera(waiting.T_cam_keyframe * oldest.T_cam_map)});
+  for (MapPoint& point : keyframe.points) point.position += offset_;
+  settle_frames(oldest, settled);
+  settled.keyframes.push_back(std::move(keyframe));
+}
+
+void Settling::settle_frames(const WindowKeyframe& keyframe, Settled& settled) {
+  // They lie on the step that ends in the next keyframe.
+  const double factor = notes_.empty() ? 1.0 : std::exp(notes_.begin()->second.log_factor);
+  while (!frames_.empty() && frames_.front().keyframe <= keyframe.id) {
+    RelativePose T_cam_keyframe = frames_.front().T_cam_keyframe;
+    T_cam_keyframe.t *= factor;
+    Eigen::Isometry3d T = in_first_camera(T_cam_keyframe * keyframe.T_cam_map);
+    T.translation() += offset_;
+    settled.frames.push_back({frames_.front().frame, T});
     frames_.pop_front();
   }
-  settled.keyframes.push_back(std::move(keyframe));
 }
 
 void Settling::settle_all(LocalMap& map, Settled& settled) {

@@ -21,18 +21,27 @@ class Settling {
     std::size_t segment = 0;
     bool metric = false;
     double scale_sigma = 0.0;  ///< relative 1σ of lengths
+    /// How far today's measurements speak for the step that ended here, and ...
+    double share = 1.0;
+    double log_factor = 0.0;  ///< ... what its length in the map has to be multiplied with for it
   };
 
   void add_frame(std::size_t frame, std::size_t keyframe, const RelativePose& T_cam_keyframe);
   void add_keyframe(std::size_t id, const Note& note) { notes_[id] = note; }
   /// The scale of all keyframes of the window is known so well now.
   void set_metric(bool metric, double scale_sigma);
+  /// The scale went on by a keyframe, see ScaleFilter::drift().
+  void drift(double share);
+  /// The map's lengths were multiplied: all of them, while only `share` of it was meant for a step.
   void rescale(double factor);
   /// Takes the oldest keyframe out of the map.
   void settle_oldest(LocalMap& map, Settled& settled);
   void settle_all(LocalMap& map, Settled& settled);
+  /// Of what is settled against the map [map lengths].
+  [[nodiscard]] const Eigen::Vector3d& offset() const { return offset_; }
 
  private:
+  void settle_frames(const WindowKeyframe& keyframe, Settled& settled);
   struct Waiting {
     std::size_t frame;
     std::size_t keyframe;
@@ -42,6 +51,7 @@ class Settling {
   std::map<std::size_t, Note> notes_;
   std::optional<RelativePose> T_last_map_;  ///< of the keyframe settled last, in this segment
   std::size_t last_segment_ = 0;
+  Eigen::Vector3d offset_ = Eigen::Vector3d::Zero();
   Eigen::Matrix<double, 6, 6> constraint_ = Eigen::Matrix<double, 6, 6>::Zero();
 };
 

@@ -63,6 +63,15 @@ TEST(ScaleFilter, GrowsUncertainWithoutMeasurements) {
   EXPECT_FALSE(filter.is_metric());
 }
 
+TEST(ScaleFilter, SaysHowFarMeasurementsSpeakForTheScaleBefore) {
+  ScaleOptions options;
+  ScaleFilter filter(options);
+  EXPECT_EQ(filter.drift(), 1.0);  // nothing known: the first measurement is for all
+  static_cast<void>(filter.correct(1.0, options.map_drift));
+  EXPECT_NEAR(filter.drift(), 0.5, 1e-12);
+  EXPECT_NEAR(filter.drift(), 2.0 / 3.0, 1e-12);
+}
+
 TEST(ScaleFilter, IgnoresNumbersThatAreNone) {
   ScaleFilter filter{ScaleOptions{}};
   for (const double ratio : {0.0, -1.0, std::nan(""), HUGE_VAL}) {

@@ -14,7 +14,9 @@ class ScaleFilter {
   explicit ScaleFilter(const ScaleOptions& options) : options_(options) {}
 
   /// A keyframe more: the scale may have drifted.
-  void drift();
+  /// @return  how far what is measured from now on speaks for the scale before: the regression of
+  ///          the old state on the new one, P / (P + Q); 1 while nothing is known
+  double drift();
   /// The map lost its scale (nothing was carried over); the next measurement sets it.
   void lose();
   /// A measurement of true length over map length, with its relative 1σ.
