@@ -22,8 +22,9 @@ struct Outcome {
     second.A << 1.05, 0.02, -0.03, 0.98;
     const auto one = build_pyramid(render(Texture(21), View{}).view(), 2);
     const auto two = build_pyramid(render(Texture(21), second).view(), 2);
-    for (const auto& [radius, row_step] :
-         {std::pair{6.0, 1}, {7.0, 1}, {8.0, 1}, {11.0, 2}, {14.0, 2}, {14.0, 1}}) {
+    constexpr std::pair<double, int> kWindows[] = {{6.0, 1},  {7.0, 1},  {8.0, 1},
+                                                   {11.0, 2}, {14.0, 2}, {14.0, 1}};
+    for (const auto& [radius, row_step] : kWindows) {
       const PatchWindow window = round_window(radius, row_step);
       PatchWarp here, there;
       here.centre = {201.3, 155.8};
