@@ -20,24 +20,26 @@ std::string joined(const std::set<std::string>& names) {
 }  // namespace
 
 bool is_present(const CameraView& view, ExternalImages& images) {
-  if (!view.image->isExternallyStored()) return !view.image->isEmpty();
-  return images.find(view.image->getExternalStorageFile()).has_value();
+  if (view.image->kind == LogImage::Kind::external) {
+    return images.find(view.image->file).has_value();
+  }
+  return view.image->kind != LogImage::Kind::none;
 }
 
 CameraProbe::CameraProbe(std::string wanted, ExternalImages& images)
     : wanted_(std::move(wanted)), images_(images) {}
 
-void CameraProbe::add(const LogRecord& record) {
+void CameraProbe::add(const RawlogRecord& record) {
   const auto& observation = *record.observation;
   sensors_.insert(observation.sensorLabel + " (" + compat::class_name(observation) + ")");
-  const auto views = camera_views(observation);
+  const auto views = camera_views(record);
   for (const auto& view : views) add_view(view, record);
   if (observation.timestamp == INVALID_TIMESTAMP) return;
   last_time_ = compat::unix_seconds(observation.timestamp);
   if (!views.empty() && !first_time_) first_time_ = last_time_;
 }
 
-void CameraProbe::add_view(const CameraView& view, const LogRecord& record) {
+void CameraProbe::add_view(const CameraView& view, const RawlogRecord& record) {
   auto& candidate = candidates_[view.name()];
   if (candidate.images++ == 0) {
     candidate.name = view.name();

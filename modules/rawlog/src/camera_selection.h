@@ -40,7 +40,7 @@ class CameraProbe {
   static constexpr double kProbeSeconds = 2.0;
 
   CameraProbe(std::string wanted, ExternalImages& images);
-  void add(const LogRecord& record);
+  void add(const RawlogRecord& record);
   /// No further record can change the outcome.
   [[nodiscard]] bool decided() const;
   /// @throws InputError when no camera is meant, several are, or none of its images exists
@@ -48,7 +48,7 @@ class CameraProbe {
   [[nodiscard]] bool has_images() const { return !candidates_.empty(); }
 
  private:
-  void add_view(const CameraView& view, const LogRecord& record);
+  void add_view(const CameraView& view, const RawlogRecord& record);
   [[nodiscard]] std::vector<const CameraCandidate*> meant() const;
   [[nodiscard]] std::string names() const;
 

@@ -1,26 +1,28 @@
 #pragma once
 
+#include "log_image.h"
+#include "log_reader.h"
+
 #include "oneac/geometry/camera.h"
 
-#include <mrpt/img/CImage.h>
 #include <mrpt/img/TCamera.h>
-#include <mrpt/obs/CObservation.h>
 
 #include <Eigen/Geometry>
 
+#include <memory>
 #include <string>
 #include <vector>
 
 namespace oneac {
 
 /// One image of an observation with its camera: what an image observation and either half of a
-/// stereo observation have in common. Borrows from the observation.
+/// stereo observation have in common. Borrows from the record.
 struct CameraView {
   enum class Side { mono, left, right };
 
   std::string label;  ///< of the sensor
   Side side = Side::mono;
-  const mrpt::img::CImage* image = nullptr;
+  std::shared_ptr<const LogImage> image;  ///< never null
   const mrpt::img::TCamera* calibration = nullptr;
   Eigen::Isometry3d T_vehicle_sensor =
       Eigen::Isometry3d::Identity();  ///< of the left camera of a pair
@@ -40,7 +42,10 @@ struct CameraView {
 };
 
 /// The images of an observation: none, one, or the left and right one of a pair.
-[[nodiscard]] std::vector<CameraView> camera_views(const mrpt::obs::CObservation& observation);
+[[nodiscard]] std::vector<CameraView> camera_views(const RawlogRecord& record);
+
+/// @throws std::runtime_error when the pose of a camera is not finite or not a rotation
+void check_cameras(const mrpt::obs::CObservation& observation);
 
 /// The calibration as stored in a log.
 /// @throws InputError naming `where` when there is none or its lens model is not supported

@@ -6,6 +6,7 @@
 #include <cstring>
 #include <fstream>
 #include <stdexcept>
+#include <utility>
 
 namespace oneac {
 namespace {
@@ -53,32 +54,57 @@ void DecompressingStream::read_input() {
   if (file_->stream.bad()) fault_ = "the file cannot be read on";
 }
 
-// Fills the output buffer with at least one byte, or sets ended_.
-void DecompressingStream::refill() {
-  out_begin_ = out_end_ = 0;
-  while (out_end_ == 0 && !ended_) {
+// At least one byte of plain data, or none and ended_ is set.
+std::size_t DecompressingStream::produce(std::uint8_t* to, std::size_t room) {
+  if (decompressor_) return decompress(to, room);
+  if (in_begin_ == in_end_) read_input();
+  const std::size_t count = std::min(room, in_end_ - in_begin_);
+  std::copy_n(in_.data() + in_begin_, count, to);
+  in_begin_ += count;
+  ended_ = count == 0;
+  return count;
+}
+
+std::size_t DecompressingStream::decompress(std::uint8_t* to, std::size_t room) {
+  std::size_t produced = 0;
+  while (produced == 0 && !ended_) {
     bool input_ended = false;
     if (in_begin_ == in_end_) {
       read_input();
       input_ended = in_end_ == 0;
     }
-    if (!decompressor_) {
-      std::swap(in_, out_);
-      out_end_ = in_end_;
-      in_begin_ = in_end_ = 0;
-      ended_ = out_end_ == 0;
-      continue;
-    }
     // Also called without input: a decompressor may still hold output.
-    const auto piece = decompressor_->decompress(in_.data() + in_begin_, in_end_ - in_begin_,
-                                                 out_.data(), out_.size());
+    const auto piece =
+        decompressor_->decompress(in_.data() + in_begin_, in_end_ - in_begin_, to, room);
     in_begin_ += piece.consumed;
-    out_end_ = piece.produced;
+    produced = piece.produced;
     if (fault_.empty()) fault_ = piece.fault;
-    const bool exhausted = input_ended && piece.produced == 0;
+    const bool exhausted = input_ended && produced == 0;
     if (exhausted && fault_.empty()) fault_ = decompressor_->fault_at_end();
     ended_ = exhausted || !fault_.empty();
   }
+  return produced;
+}
+
+void DecompressingStream::refill() {
+  if (out_.size() > kBufferBytes) {  // grown by a look ahead
+    out_.resize(kBufferBytes);
+    out_.shrink_to_fit();
+  }
+  out_begin_ = 0;
+  out_end_ = produce(out_.data(), out_.size());
+}
+
+bool DecompressingStream::has_bytes(std::size_t count) {
+  if (out_end_ - out_begin_ >= count) return true;
+  if (count > kLargestRead) return false;
+  std::copy(out_.data() + out_begin_, out_.data() + out_end_, out_.data());
+  out_end_ -= std::exchange(out_begin_, 0);
+  if (out_.size() < count) out_.resize(count);
+  while (out_end_ < count && !ended_) {
+    out_end_ += produce(out_.data() + out_end_, out_.size() - out_end_);
+  }
+  return out_end_ >= count;
 }
 
 bool DecompressingStream::at_end() {

@@ -32,7 +32,7 @@ class Decompressor {
                                                               std::size_t size);
 
 /// A plain, gzip or zstd file as the input of an MRPT archive; tells a clean end from a damaged
-/// one. Memory: two fixed buffers.
+/// one. Memory: two fixed buffers, and what is looked ahead at.
 class DecompressingStream : public mrpt::io::CStream {
  public:
   /// @throws InputError when the file does not exist, is a folder, cannot be opened or is empty
@@ -48,6 +48,8 @@ class DecompressingStream : public mrpt::io::CStream {
 
   /// True when no byte is left, whether cleanly or not.
   [[nodiscard]] bool at_end();
+  /// Whether at least so many bytes are left: looks ahead, keeping what it sees.
+  [[nodiscard]] bool has_bytes(std::size_t count);
   /// More bytes have been asked for than there are.
   [[nodiscard]] bool ran_out() const { return ran_out_; }
   /// "" or what is wrong with the file, as far as read.
@@ -61,6 +63,8 @@ class DecompressingStream : public mrpt::io::CStream {
   struct File;
   void refill();
   void read_input();
+  [[nodiscard]] std::size_t produce(std::uint8_t* to, std::size_t room);
+  [[nodiscard]] std::size_t decompress(std::uint8_t* to, std::size_t room);
 
   std::unique_ptr<File> file_;
   std::unique_ptr<Decompressor> decompressor_;

@@ -6,8 +6,15 @@
 #include <opencv2/imgproc.hpp>
 
 #include <algorithm>
+#include <cctype>
 #include <cstdint>
+#include <cstdlib>
+#include <cstring>
 #include <fstream>
+#include <limits>
+#include <optional>
+#include <sstream>
+#include <string_view>
 #include <vector>
 
 namespace oneac {
@@ -17,13 +24,18 @@ using Bytes = std::vector<std::uint8_t>;
 
 constexpr const char* kCopyImage =
     "copy the image again, or remove it to have it counted as missing";
-constexpr double k16To8Bit = 1.0 / 256.0;  // keeps the upper byte
+constexpr std::uint8_t kMarker = 0xff;                            // of a JPEG segment
+constexpr std::size_t kLargestPixels = std::size_t{1} << 27;      // 134 Mpx: more is damage
+constexpr std::streamoff kLargestFile = std::streamoff{1} << 29;  // [byte] raw, of that size
+constexpr double k16To8Bit = 1.0 / 256.0;                         // keeps the upper byte
 
 Bytes read_bytes(const std::filesystem::path& file) {
   std::ifstream stream(file, std::ios::binary | std::ios::ate);
   if (!stream)
     throw InputError(file.string(), "the image cannot be opened", "check its permissions");
-  Bytes bytes(static_cast<std::size_t>(std::max<std::streamoff>(0, stream.tellg())));
+  const std::streamoff size = std::max<std::streamoff>(0, stream.tellg());
+  if (size > kLargestFile) throw InputError(file.string(), "the file is no image", kCopyImage);
+  Bytes bytes(static_cast<std::size_t>(size));
   stream.seekg(0);
   stream.read(reinterpret_cast<char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
   if (!stream && !bytes.empty()) {
@@ -32,30 +44,114 @@ Bytes read_bytes(const std::filesystem::path& file) {
   return bytes;
 }
 
+std::size_t big_endian(const Bytes& bytes, std::size_t at, std::size_t count) {
+  std::size_t value = 0;
+  for (std::size_t i = at; i < at + count && i < bytes.size(); ++i) value = value * 256U + bytes[i];
+  return value;
+}
+
+bool is_jpeg(const Bytes& bytes) {
+  constexpr std::uint8_t kStartOfImage = 0xd8;
+  return bytes.size() >= 4 && bytes[0] == kMarker && bytes[1] == kStartOfImage;
+}
+
+// Where the pixels of a JPEG begin, and the size that a segment before them states (0 without).
+struct JpegHeader {
+  std::size_t scan = 2;
+  std::size_t pixels = 0;
+};
+
+JpegHeader jpeg_header(const Bytes& bytes) {
+  constexpr std::uint8_t kStartOfScan = 0xda;
+  constexpr std::uint8_t kFirstFrame = 0xc0;
+  constexpr std::uint8_t kLastFrame = 0xcf;
+  constexpr std::uint8_t kHuffmanTable = 0xc4;  // between the frames' codes, but no frame
+  JpegHeader header;
+  std::size_t& at = header.scan;
+  while (at + 4 <= bytes.size() && bytes[at] == kMarker && bytes[at + 1] != kStartOfScan) {
+    const std::uint8_t code = bytes[at + 1];
+    if (code >= kFirstFrame && code <= kLastFrame && code != kHuffmanTable) {
+      header.pixels =
+          std::max(header.pixels, big_endian(bytes, at + 5, 2) * big_endian(bytes, at + 7, 2));
+    }
+    at += 2U + big_endian(bytes, at + 2, 2);
+  }
+  return header;
+}
+
 // libjpeg fills what is missing of a cut file with grey and calls it a success: look for the end
 // marker behind the header segments (a thumbnail in the header has one of its own).
 bool is_cut_jpeg(const Bytes& bytes) {
-  constexpr std::uint8_t kMarker = 0xff;
-  constexpr std::uint8_t kStartOfImage = 0xd8;
-  constexpr std::uint8_t kStartOfScan = 0xda;
+  if (!is_jpeg(bytes)) return false;
+  const std::size_t begin = jpeg_header(bytes).scan;
+  if (begin >= bytes.size()) return true;
   constexpr std::uint8_t kEndOfImage = 0xd9;
-  if (bytes.size() < 4 || bytes[0] != kMarker || bytes[1] != kStartOfImage) return false;
-  std::size_t at = 2;
-  while (at + 4 <= bytes.size() && bytes[at] == kMarker && bytes[at + 1] != kStartOfScan) {
-    at += 2U + static_cast<std::size_t>(bytes[at + 2]) * 256U + bytes[at + 3];
-  }
-  if (at >= bytes.size()) return true;
   const std::uint8_t end[] = {kMarker, kEndOfImage};
-  const auto scan = bytes.begin() + static_cast<std::ptrdiff_t>(at);
+  const auto scan = bytes.begin() + static_cast<std::ptrdiff_t>(begin);
   return std::search(scan, bytes.end(), std::begin(end), std::end(end)) == bytes.end();
+}
+
+bool begins_with(const Bytes& bytes, std::string_view magic) {
+  return bytes.size() >= magic.size() && std::memcmp(bytes.data(), magic.data(), magic.size()) == 0;
+}
+
+std::size_t little_endian(const Bytes& bytes, std::size_t at) {
+  std::size_t value = 0;
+  for (std::size_t i = at + 4; i-- > at;) value = value * 256U + (i < bytes.size() ? bytes[i] : 0U);
+  return value;
+}
+
+// "P5 640 480 255": the size of a portable map; 0 when it is another.
+std::size_t portable_map_pixels(const Bytes& bytes) {
+  constexpr std::size_t kLongestHeader = 1024;  // [byte] comments included
+  const auto end =
+      bytes.begin() + static_cast<std::ptrdiff_t>(std::min(bytes.size(), kLongestHeader));
+  std::istringstream header(std::string(bytes.begin() + 2, end));
+  std::size_t sides[2] = {0, 0};
+  for (std::size_t& side : sides) {
+    while ((header >> std::ws).peek() == '#') {
+      header.ignore(std::numeric_limits<std::streamsize>::max(), '\n');
+    }
+    if (!(header >> side) || side > kLargestPixels) return kLargestPixels + 1;
+  }
+  return sides[0] * sides[1];
+}
+
+// What an image says of its size: a few damaged bytes ask for gigabytes. Nothing for a format that
+// is not read: OpenCV has decoders for many, each with faults of its own.
+std::optional<std::size_t> claimed_pixels(const Bytes& bytes) {
+  if (is_jpeg(bytes)) return jpeg_header(bytes).pixels;
+  if (begins_with(bytes, "\x89PNG")) return big_endian(bytes, 16, 4) * big_endian(bytes, 20, 4);
+  if (begins_with(bytes, "BM")) {
+    const auto side = [&](std::size_t at) {  // a negative height stands for rows from the top
+      const auto value = static_cast<std::int32_t>(little_endian(bytes, at));
+      return static_cast<std::size_t>(std::abs(std::int64_t{value}));
+    };
+    return side(18) * side(22);
+  }
+  const bool portable_map = bytes.size() > 2 && bytes[0] == 'P' && bytes[1] >= '2' &&
+                            bytes[1] <= '6' && std::isspace(bytes[2]) != 0;
+  if (portable_map) return portable_map_pixels(bytes);
+  return std::nullopt;
 }
 
 }  // namespace
 
 cv::Mat decode_grey_file(const std::filesystem::path& file) {
-  const Bytes bytes = read_bytes(file);
-  if (bytes.empty()) throw InputError(file.string(), "the image file is empty", kCopyImage);
-  if (is_cut_jpeg(bytes)) throw InputError(file.string(), "the image ends early", kCopyImage);
+  return decode_grey_bytes(read_bytes(file), file.string());
+}
+
+cv::Mat decode_grey_bytes(const Bytes& bytes, const std::string& name) {
+  if (bytes.empty()) throw InputError(name, "the image file is empty", kCopyImage);
+  if (is_cut_jpeg(bytes)) throw InputError(name, "the image ends early", kCopyImage);
+  const auto pixel_count = claimed_pixels(bytes);
+  if (!pixel_count) {
+    throw InputError(name, "the image cannot be decoded: no JPEG, PNG, BMP, PGM or PPM",
+                     kCopyImage);
+  }
+  if (*pixel_count > kLargestPixels) {
+    throw InputError(name, "the image claims an absurd size", kCopyImage);
+  }
   cv::Mat pixels;
   try {
     constexpr int kAsStored = cv::IMREAD_ANYDEPTH | cv::IMREAD_IGNORE_ORIENTATION;
@@ -63,8 +159,8 @@ cv::Mat decode_grey_file(const std::filesystem::path& file) {
   } catch (const cv::Exception&) {
     pixels.release();
   }
-  if (pixels.empty()) throw InputError(file.string(), "the image cannot be decoded", kCopyImage);
-  return to_grey(pixels, file.string());
+  if (pixels.empty()) throw InputError(name, "the image cannot be decoded", kCopyImage);
+  return to_grey(pixels, name);
 }
 
 cv::Mat to_grey(const cv::Mat& pixels, const std::string& name) {

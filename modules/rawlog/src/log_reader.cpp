@@ -1,6 +1,8 @@
 #include "log_reader.h"
 
+#include "camera_view.h"
 #include "decompressing_stream.h"
+#include "guarded_stream.h"
 
 #include "oneac/mrpt_compat/observations.h"
 
@@ -36,8 +38,10 @@ bool is_unknown_class(const std::string& fault) {
 }  // namespace
 
 struct LogReader::Archive {
-  explicit Archive(const std::filesystem::path& log) : stream(log), archive(stream) {}
+  explicit Archive(const std::filesystem::path& log)
+      : stream(log), guarded(stream), archive(guarded) {}
   DecompressingStream stream;
+  GuardedStream guarded;
   mrpt::serialization::CArchiveStreamBase<mrpt::io::CStream> archive;
 };
 
@@ -50,11 +54,11 @@ LogReader::LogReader(std::filesystem::path log)
 
 LogReader::~LogReader() = default;
 
-std::optional<LogRecord> LogReader::next() {
+std::optional<RawlogRecord> LogReader::next() {
   while (ready_.empty()) {
     if (!read_record()) return std::nullopt;
   }
-  LogRecord record = std::move(ready_.front());
+  RawlogRecord record = std::move(ready_.front());
   ready_.pop_front();
   return record;
 }
@@ -70,7 +74,11 @@ bool LogReader::read_record() {
   }
   std::string fault;
   try {
-    take(archive_->archive.ReadObject());
+    archive_->guarded.begin_record();
+    const auto object = archive_->archive.ReadObject();
+    // MRPT takes the last field of a record without an end mark for whole.
+    if (stream.ran_out()) throw std::runtime_error("cut");
+    take(object);
     ++records_;
     return true;
   } catch (const std::bad_alloc&) {
@@ -89,12 +97,19 @@ bool LogReader::read_record() {
 void LogReader::take(const mrpt::serialization::CSerializable::Ptr& object) {
   using mrpt::obs::CSensoryFrame;
   if (!object) return;
+  const auto images = std::make_shared<const LogImages>(archive_->guarded.take_images());
   if (auto observation = std::dynamic_pointer_cast<mrpt::obs::CObservation>(object)) {
+    check_cameras(*observation);
     has_observations_ = true;
-    ready_.push_back({records_, std::move(observation)});
+    ready_.push_back({records_, std::move(observation), images});
   } else if (const auto frame = std::dynamic_pointer_cast<CSensoryFrame>(object)) {
     has_pairs_ = true;
-    for (const auto& part : *frame) ready_.push_back({records_, part});
+    for (const auto& part : *frame) {
+      if (part) check_cameras(*part);
+    }
+    for (const auto& part : *frame) {
+      if (part) ready_.push_back({records_, part, images});
+    }
   } else if (std::dynamic_pointer_cast<mrpt::obs::CActionCollection>(object)) {
     has_pairs_ = true;
   } else if (records_ == 0) {

@@ -1,5 +1,7 @@
 #pragma once
 
+#include "log_image.h"
+
 #include "oneac/base/error.h"
 
 #include <mrpt/obs/CObservation.h>
@@ -14,9 +16,12 @@
 namespace oneac {
 
 /// One observation and the number of the top-level record (from 0) that it came in.
-struct LogRecord {
+struct RawlogRecord {
   std::size_t number = 0;
   mrpt::obs::CObservation::Ptr observation;
+  /// Of the whole top-level record; the observation's CImages are external ones whose file is a
+  /// number in here.
+  std::shared_ptr<const LogImages> images;
 };
 
 /// Streams the observations of a rawlog in log order: out of plain observations and out of sensory
@@ -30,7 +35,7 @@ class LogReader {
   ~LogReader();
 
   /// The next observation; nothing at the end of what can be read.
-  [[nodiscard]] std::optional<LogRecord> next();
+  [[nodiscard]] std::optional<RawlogRecord> next();
   /// Set once the log ended badly: file, record, fault, cure.
   [[nodiscard]] const std::optional<InputError>& damage() const { return damage_; }
   [[nodiscard]] const std::string& compression() const;
@@ -46,7 +51,7 @@ class LogReader {
 
   std::filesystem::path log_;
   std::unique_ptr<Archive> archive_;
-  std::deque<LogRecord> ready_;
+  std::deque<RawlogRecord> ready_;
   std::size_t records_ = 0;
   bool has_pairs_ = false;
   bool has_observations_ = false;

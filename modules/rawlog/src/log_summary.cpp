@@ -40,7 +40,7 @@ class Summariser {
   explicit Summariser(const SummaryOptions& options)
       : options_(options), images_(options.log, options.images_dir) {}
 
-  void add(const LogRecord& record);
+  void add(const RawlogRecord& record);
   [[nodiscard]] LogSummary finish(const LogReader& reader);
 
  private:
@@ -61,7 +61,7 @@ class Summariser {
   ReferenceCollector collector_;
 };
 
-void Summariser::add(const LogRecord& record) {
+void Summariser::add(const RawlogRecord& record) {
   const auto& observation = *record.observation;
   auto& sensor = sensors_[{observation.sensorLabel, compat::class_name(observation)}];
   ++sensor.count;
@@ -71,7 +71,7 @@ void Summariser::add(const LogRecord& record) {
   if (stamped) {
     sensor.times.push_back(compat::unix_seconds(observation.timestamp));
   }
-  for (const auto& view : camera_views(observation)) add_view(view, record.number);
+  for (const auto& view : camera_views(record)) add_view(view, record.number);
   collector_.add(observation);
 }
 

@@ -66,9 +66,10 @@ class RawlogSource::Impl {
 
  private:
   [[nodiscard]] PinholeCamera calibration() const;
-  [[nodiscard]] std::optional<Sight> take(const LogRecord& record);
+  [[nodiscard]] std::optional<Sight> take(const RawlogRecord& record);
   [[nodiscard]] bool is_selected(std::size_t index) const;
-  [[nodiscard]] std::optional<FrameTicket> ticket_of(const Sight& sight, const LogRecord& record);
+  [[nodiscard]] std::optional<FrameTicket> ticket_of(const Sight& sight,
+                                                     const RawlogRecord& record);
   void add_right(const CameraView& right, std::size_t record, Payload& payload);
   [[nodiscard]] GreyImage decoded(const StoredImage& image, const std::string& ticket_name) const;
   [[nodiscard]] std::string where(std::size_t record) const;
@@ -118,10 +119,10 @@ std::string RawlogSource::Impl::where(std::size_t record) const {
 }
 
 // Books the record; its view by the chosen camera, if it has one.
-std::optional<Sight> RawlogSource::Impl::take(const LogRecord& record) {
+std::optional<Sight> RawlogSource::Impl::take(const RawlogRecord& record) {
   collector_.add(*record.observation);
   std::optional<Sight> sight;
-  for (auto& view : camera_views(*record.observation)) {
+  for (auto& view : camera_views(record)) {
     if (view.name() == chosen_.name) {
       ++report_.images_in_log;
       sight.emplace(Sight{view, std::nullopt});
@@ -163,15 +164,14 @@ void RawlogSource::Impl::add_right(const CameraView& right, std::size_t record, 
 }
 
 std::optional<FrameTicket> RawlogSource::Impl::ticket_of(const Sight& sight,
-                                                         const LogRecord& record) {
+                                                         const RawlogRecord& record) {
   const CameraView& view = sight.view;
   check_calibration(view, record.number);
   FrameTicket ticket;
   ticket.index = report_.images_in_log - 1;
-  ticket.name =
-      view.image->isExternallyStored()
-          ? std::filesystem::path(view.image->getExternalStorageFile()).filename().string()
-          : "record " + std::to_string(record.number);
+  ticket.name = view.image->kind == LogImage::Kind::external
+                    ? std::filesystem::path(view.image->file).filename().string()
+                    : "record " + std::to_string(record.number);
   auto image = stored_image(view, images_);
   if (!image) {
     if (report_.images_missing++ == 0) report_.first_missing = ticket.name;

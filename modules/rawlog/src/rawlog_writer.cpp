@@ -1,19 +1,21 @@
 #include "oneac/rawlog/rawlog_writer.h"
 
 #include "gps_message.h"
+#include "gzip_file_stream.h"
 #include "mrpt_time.h"
 
 #include "oneac/base/atomic_file.h"
 #include "oneac/base/error.h"
 #include "oneac/geometry/camera_frame.h"
 
-#include <mrpt/io/CFileGZOutputStream.h>
 #include <mrpt/obs/CObservationIMU.h>
 #include <mrpt/obs/CObservationImage.h>
 #include <mrpt/obs/CObservationStereoImages.h>
 #include <mrpt/serialization/CArchive.h>
 #include <unistd.h>
 
+#include <exception>
+#include <memory>
 #include <string>
 #include <system_error>
 
@@ -61,12 +63,14 @@ class RawlogWriter::Impl {
                        "give the name of a file, such as drive.rawlog");
     }
     temporary_ += ".part" + std::to_string(::getpid());
-    if (!stream_.open(temporary_.string())) {
+    try {
+      stream_ = std::make_unique<GzipFileStream>(temporary_);
+    } catch (const std::exception&) {
       throw InputError(log.string(), "cannot be written", "choose another place with -o");
     }
   }
   ~Impl() {
-    stream_.close();
+    stream_.reset();
     std::error_code ignored;
     fs::remove(temporary_, ignored);
   }
@@ -75,14 +79,18 @@ class RawlogWriter::Impl {
 
   void put(const mrpt::serialization::CSerializable& object) {
     try {
-      auto archive = mrpt::serialization::archiveFrom(stream_);
+      auto archive = mrpt::serialization::archiveFrom<mrpt::io::CStream>(*stream_);
       archive << object;
     } catch (const std::exception&) {
       fail("cannot be written on (is the disk full?)");
     }
   }
   void close() {
-    stream_.close();
+    try {
+      stream_->close();
+    } catch (const std::exception&) {
+      fail("cannot be written on (is the disk full?)");
+    }
     std::error_code error;
     fs::rename(temporary_, log_, error);
     if (error) fail("cannot be put in place (" + error.message() + ")");
@@ -95,7 +103,7 @@ class RawlogWriter::Impl {
 
   fs::path log_;
   fs::path temporary_;
-  mrpt::io::CFileGZOutputStream stream_;
+  std::unique_ptr<GzipFileStream> stream_;
 };
 
 RawlogWriter::RawlogWriter(const fs::path& log) : impl_(std::make_unique<Impl>(log)) {}

@@ -17,7 +17,11 @@ namespace {
 constexpr double kMergeWithin = 0.5;       // [s] GGA and RMC of one epoch at the usual 1 Hz
 constexpr double kKnot = 1852.0 / 3600.0;  // [m/s]
 constexpr double kDegree = M_PI / 180.0;   // [rad]
-constexpr int kNoFix = 0;                  // GGA fix quality
+// What a damaged reading exceeds; the comparisons are false for NaN.
+constexpr double kFastest = 1e3;                 // [m/s]
+constexpr double kFullTurn = 2.0 * M_PI + 1e-9;  // [rad]
+constexpr double kHighest = 1e5;                 // [m] above the ellipsoid, either way
+constexpr int kNoFix = 0;                        // GGA fix quality
 constexpr std::int8_t kRmcValid = 'A';
 
 using GGA = mrpt::obs::gnss::Message_NMEA_GGA;
@@ -66,6 +70,11 @@ void sort_by_time(std::vector<T>& list) {
 
 }  // namespace
 
+bool ReferenceCollector::Geodetic::is_on_earth() const {
+  return std::abs(latitude_deg) <= 90.0 && std::abs(longitude_deg) <= 360.0 &&
+         std::abs(height) < kHighest;
+}
+
 void ReferenceCollector::add(const mrpt::obs::CObservation& observation) {
   if (observation.timestamp == INVALID_TIMESTAMP) return;
   if (const auto* imu = dynamic_cast<const CObservationIMU*>(&observation)) {
@@ -79,15 +88,14 @@ void ReferenceCollector::add(const mrpt::obs::CObservation& observation) {
   if (const auto* gga = compat::gps_message<GGA>(*gps)) {
     const Geodetic g{gga->fields.latitude_degrees, gga->fields.longitude_degrees,
                      gga->fields.altitude_meters};
-    const bool finite = std::isfinite(g.latitude_deg + g.longitude_deg + g.height);
-    if (gga->fields.fix_quality != kNoFix && finite) reading.position = g;
+    if (gga->fields.fix_quality != kNoFix && g.is_on_earth()) reading.position = g;
   }
   if (const auto* rmc = compat::gps_message<RMC>(*gps)) {
     const bool valid = rmc->fields.validity_char == kRmcValid;
     const double speed = rmc->fields.speed_knots * kKnot;
     const double course = rmc->fields.direction_degrees * kDegree;
-    if (valid && std::isfinite(speed)) reading.speed = speed;
-    if (valid && std::isfinite(course)) reading.course = course;
+    if (valid && std::abs(speed) < kFastest) reading.speed = speed;
+    if (valid && std::abs(course) <= kFullTurn) reading.course = course;
   }
   if (reading.position || reading.speed || reading.course) {
     gps_[gps->sensorLabel].push_back(reading);

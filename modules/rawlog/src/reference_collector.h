@@ -14,8 +14,8 @@ namespace oneac {
 /// Gathers the GPS and IMU observations of a log and turns them into a reference.
 ///
 /// Sensors are kept apart by label; the reference takes the GPS with the most epochs and the IMU
-/// with the most samples (the alphabetically first of equals). Void fixes and numbers that are not
-/// finite are dropped, as are observations without a time stamp.
+/// with the most samples (the alphabetically first of equals). Void fixes and numbers that no
+/// vehicle on earth can have are dropped, as are observations without a time stamp.
 class ReferenceCollector {
  public:
   /// Takes what is a CObservationGPS or CObservationIMU, ignores the rest.
@@ -28,6 +28,8 @@ class ReferenceCollector {
     double latitude_deg = 0.0;
     double longitude_deg = 0.0;
     double height = 0.0;  ///< [m]
+
+    [[nodiscard]] bool is_on_earth() const;  ///< false for NaN too
   };
   struct Reading {
     double time_s = 0.0;

@@ -2,8 +2,6 @@
 
 #include "image_decoding.h"
 
-#include "oneac/mrpt_compat/observations.h"
-
 #include <Eigen/Geometry>
 
 #include <cmath>
@@ -29,20 +27,15 @@ std::string StoredImage::name(const std::string& name_in_log) const {
 }
 
 cv::Mat StoredImage::grey(const std::string& name_in_log) const {
-  return file.empty() ? to_grey(compat::pixels_of(pixels), name_in_log) : decode_grey_file(file);
+  return file.empty() ? decode_grey(*in_log, name_in_log) : decode_grey_file(file);
 }
 
 std::optional<StoredImage> stored_image(const CameraView& view, ExternalImages& images) {
-  StoredImage image;
-  if (view.image->isExternallyStored()) {
-    const auto file = images.find(view.image->getExternalStorageFile());
-    if (!file) return std::nullopt;
-    image.file = *file;
-  } else {
-    if (view.image->isEmpty()) return std::nullopt;
-    image.pixels = view.image->makeShallowCopy();
-  }
-  return image;
+  if (view.image->kind == LogImage::Kind::none) return std::nullopt;
+  if (view.image->kind != LogImage::Kind::external) return StoredImage{{}, view.image};
+  const auto file = images.find(view.image->file);
+  if (!file) return std::nullopt;
+  return StoredImage{*file, view.image};
 }
 
 std::optional<double> rectified_baseline(const CameraView& right, const PinholeCamera& left,

@@ -2,19 +2,21 @@
 
 #include "camera_view.h"
 #include "external_images.h"
+#include "log_image.h"
 
 #include <opencv2/core.hpp>
 
 #include <filesystem>
+#include <memory>
 #include <optional>
 #include <string>
 
 namespace oneac {
 
-/// An image to be loaded: the file of an external one, or the pixels of one in the log.
+/// An image to be loaded: the file of an external one, or what the log holds.
 struct StoredImage {
   std::filesystem::path file;
-  mrpt::img::CImage pixels;
+  std::shared_ptr<const LogImage> in_log;
 
   /// @param name_in_log  for messages about an image of the log
   /// @throws InputError when it cannot be decoded
