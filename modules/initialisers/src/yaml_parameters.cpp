@@ -5,6 +5,7 @@
 #include <mrpt/containers/yaml.h>
 #include <yaml-cpp/yaml.h>
 
+#include <cstddef>
 #include <filesystem>
 #include <stdexcept>
 
@@ -32,23 +33,44 @@ std::string place(const std::string& path, const YAML::Mark& mark) {
   return mark.is_null() ? path : path + ": line " + std::to_string(mark.line + 1);
 }
 
-void apply_node(const YAML::Node& map, const std::string& path, const std::string& prefix,
-                ParameterTable& table) {
-  for (const auto& entry : map) {
-    const std::string key = prefix + entry.first.Scalar();
-    try {
-      if (entry.second.IsMap()) {
-        apply_node(entry.second, path, key + ".", table);
-      } else if (entry.second.IsScalar()) {
-        table.set(key, entry.second.Scalar());
-      } else {
-        throw std::invalid_argument("key '" + key + "' must have a single value");
+/// Walks a document into a table. Anchors let a few lines of YAML nest or repeat without end.
+class FileWalk {
+ public:
+  FileWalk(const std::string& path, ParameterTable& table) : path_(path), table_(table) {}
+
+  void apply(const YAML::Node& map, const std::string& prefix, std::size_t depth) {
+    for (const auto& entry : map) {
+      try {
+        apply_entry(entry.first, entry.second, prefix, depth);
+      } catch (const std::invalid_argument& error) {
+        throw InputError(place(path_, entry.first.Mark()), error.what(), kCure);
       }
-    } catch (const std::invalid_argument& error) {
-      throw InputError(place(path, entry.first.Mark()), error.what(), kCure);
     }
   }
-}
+
+ private:
+  static constexpr std::size_t kDeepest = 8;   // the parameters have three levels
+  static constexpr std::size_t kMost = 10000;  // entries; the parameters are a hundred
+
+  void apply_entry(const YAML::Node& name, const YAML::Node& value, const std::string& prefix,
+                   std::size_t depth) {
+    const std::string key = prefix + (name.IsScalar() ? name.Scalar() : "");
+    if (++entries_ > kMost || depth > kDeepest) {
+      throw std::invalid_argument("key '" + key + "' is nested too deep or one of too many");
+    }
+    if (value.IsMap()) {
+      apply(value, key + ".", depth + 1);
+    } else if (value.IsScalar()) {
+      table_.set(key, value.Scalar());
+    } else {
+      throw std::invalid_argument("key '" + key + "' must have a single value");
+    }
+  }
+
+  const std::string& path_;
+  ParameterTable& table_;
+  std::size_t entries_ = 0;
+};
 
 }  // namespace
 
@@ -75,7 +97,7 @@ void apply_yaml_file(const std::string& path, ParameterTable& table) {
   }
   if (document.IsNull()) return;
   if (!document.IsMap()) throw InputError(path, "is not a map of keys and values", kCure);
-  apply_node(document, path, "", table);
+  FileWalk(path, table).apply(document, "", 1);
 }
 
 }  // namespace oneac
