@@ -110,6 +110,7 @@ RelativePoseRow parse_row(const Fields& fields) {
   row.inliers = fields.integer<int>("inliers");
   row.acs = fields.integer<int>("acs");
   row.status = std::string(fields.text("status"));
+  if (row.status.find('\r') != std::string::npos) fields.fail("status", "without a line break");
   return row;
 }
 
