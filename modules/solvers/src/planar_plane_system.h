@@ -53,6 +53,9 @@ template <class Plane, PlaneForm kForm>
   const bool solved =
       kForm == PlaneForm::kOptimal ? solve_optimal(sum.gram, x) : solve_rapid(sum.gram, x);
   if (!solved) return 0.0;
+  // Numbers whose squares leave the range of doubles end off the circle: no rotation.
+  constexpr double kOffCircle = 1e-9;
+  if (!(std::abs(x.c * x.c + x.s * x.s - 1.0) < kOffCircle)) return 0.0;
   const double squared_length = x.p * x.p + x.q * x.q;
   if (!(squared_length > kNoPlaneMotion * kNoPlaneMotion) || !std::isfinite(squared_length)) {
     return 0.0;
