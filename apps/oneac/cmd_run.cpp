@@ -72,6 +72,7 @@ void run(RunFlags& flags) {
   if (!options.run.quiet) {
     for (const std::string& note : notes_about(record)) std::cerr << "oneac: " << note << '\n';
   }
+  fail_if_empty(record, options.log);
   write_all(record, options, wall.count());
   if (gui && !record.interrupted) gui->wait(record);
   fail_if_incomplete(record);

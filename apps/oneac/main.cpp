@@ -23,7 +23,8 @@ int main(int argc, char** argv) {
   oneac::app::add_synth(program);
   try {
     program.parse(argc, argv);
-    return 0;
+    if (std::cout.flush()) return 0;
+    throw std::runtime_error("standard output cannot be written");
   } catch (const CLI::ParseError& error) {
     return program.exit(error) == 0 ? 0 : 2;
   } catch (const oneac::InputError& error) {

@@ -32,6 +32,15 @@ void write_drive(const DriveRecord& record, const std::filesystem::path& folder)
   write_file_atomically(folder / "timings.csv", format_timings(record.timings()));
 }
 
+void fail_if_empty(const DriveRecord& record, const std::string& log) {
+  if (!record.frames.empty()) return;
+  fail_if_incomplete(record);
+  throw InputError(log,
+                   "none of the " + std::to_string(record.source.images_in_log) +
+                       " images of this camera is selected and there",
+                   "correct --first and --count");
+}
+
 void fail_if_incomplete(const DriveRecord& record) {
   if (!record.failure.empty()) throw InputError("stopped early", record.failure, "");
   if (!record.source.damage.empty()) throw InputError("log", record.source.damage, "");

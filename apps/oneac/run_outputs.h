@@ -16,6 +16,10 @@ void write_drive(const DriveRecord& record, const std::filesystem::path& folder)
 /// interrupted
 void fail_if_incomplete(const DriveRecord& record);
 
+/// What the program ends with, instead of writing anything, when no frame was processed.
+/// @throws as fail_if_incomplete, else InputError naming the log
+void fail_if_empty(const DriveRecord& record, const std::string& log);
+
 /// The lines that tell the user about missing images, height, scale: one each, for stderr.
 [[nodiscard]] std::vector<std::string> notes_about(const DriveRecord& record);
 
