@@ -108,6 +108,12 @@ TEST_F(BadInput, ParameterFilesThatAreMissingOrNotYaml) {
                  {"bad.yaml: line", "not valid YAML"});
 }
 
+TEST_F(BadInput, ParameterFileThatContainsItself) {
+  write_text(scratch() / "p.yaml", "front_end: &all\n  consensus: *all\n");
+  expect_refused(run_log(log(), {"--params", (scratch() / "p.yaml").string()}),
+                 {"p.yaml: line 2", "nested too deep"});
+}
+
 TEST_F(BadInput, OutputFolderThatCannotBeWritten) {
   write_text(scratch() / "file", "in the way");
   const ProgramResult result =
