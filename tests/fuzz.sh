@@ -1,0 +1,40 @@
+#!/usr/bin/env bash
+# Builds the fuzz targets with libFuzzer and runs each for SECONDS (default 60), two at once:
+#   tests/fuzz.sh [SECONDS] [TARGET...]     e.g. tests/fuzz.sh 3600 rawlog_source
+# Starts from tests/fuzz/corpus/TARGET; new inputs and findings go to build/fuzz/found/TARGET.
+# A finding goes to the corpus together with its repair, so that every test run repeats it.
+set -euo pipefail
+source "$(dirname "${BASH_SOURCE[0]}")/../apps/setup.sh"
+
+install_packages build test
+cd "$oneac_root"
+seconds=${1:-60}
+shift || true
+targets=("$@")
+if [ $# -eq 0 ]; then
+  for folder in tests/fuzz/corpus/*/; do targets+=("$(basename "$folder")"); done
+fi
+build_preset fuzz "${targets[@]/#/fuzz_}" | tail -n 1
+
+# fuzz TARGET: one line with what was tried; the whole log and status 1 at a finding.
+fuzz() {
+  local found="build/fuzz/found/$1"
+  mkdir -p "$found"
+  # 10 s and 1 GB are promised; the sanitizers take memory of their own.
+  if ! "build/fuzz/tests/fuzz/fuzz_$1" -max_total_time="$seconds" -timeout=10 \
+    -malloc_limit_mb=1024 -rss_limit_mb=2560 -max_len=16384 -print_final_stats=1 \
+    -artifact_prefix="$found/finding-" "$found" "tests/fuzz/corpus/$1" >"$found.log" 2>&1; then
+    tail -n 60 "$found.log"
+    echo "fuzz: $1 has a finding, see build/fuzz/found/$1" >&2
+    return 1
+  fi
+  awk -v target="$1" '/number_of_executed_units/ { runs = $2 } /cov:/ { cov = $4 }
+    /peak_rss_mb/ { mb = $2 }
+    END { printf "fuzz: %-15s %9d runs, coverage %5d, %4d MB\n", target, runs, cov, mb }' \
+    "$found.log"
+}
+export -f fuzz
+export seconds
+export UBSAN_OPTIONS="halt_on_error=1:print_stacktrace=1"
+export LSAN_OPTIONS="suppressions=$oneac_root/tests/fuzz/lsan.supp:print_suppressions=0"
+printf '%s\n' "${targets[@]}" | xargs -P "${ONEAC_FUZZ_JOBS:-$(nproc)}" -I '{}' bash -c 'fuzz {}'
