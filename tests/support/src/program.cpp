@@ -60,7 +60,7 @@ RunningProgram::~RunningProgram() {
 }
 
 void RunningProgram::send(int signal) const {
-  ::kill(child_, signal);
+  if (child_ > 0) ::kill(child_, signal);  // −1 would mean every process
 }
 
 bool RunningProgram::has_ended() const {
