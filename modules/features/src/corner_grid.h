@@ -19,6 +19,13 @@ struct CornerGrid {
   int columns = 0;
   int rows = 0;
   std::vector<std::vector<Corner>> cells;  ///< row by row
+
+  /// Corners in all cells.
+  [[nodiscard]] std::size_t size() const {
+    std::size_t count = 0;
+    for (const auto& cell : cells) count += cell.size();
+    return count;
+  }
 };
 
 /// Local maxima of the smaller eigenvalue (Shi and Tomasi) of gradients summed over 7×7 pixels of

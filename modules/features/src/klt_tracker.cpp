@@ -33,12 +33,6 @@ double median_flow(const std::vector<KltTrack>& tracks,
   return *middle;
 }
 
-std::size_t count_corners(const CornerGrid& grid) {
-  std::size_t count = 0;
-  for (const auto& cell : grid.cells) count += cell.size();
-  return count;
-}
-
 void append(TrackedPair& pair, const KltTrack& track, const PatchMatch& match) {
   pair.acs.push_back({track.u, match.warp.centre, match.warp.M});
   pair.tracks.push_back(track.id);
@@ -112,7 +106,7 @@ bool KltTracker::is_broken(const Matches& matches, const KltFrame& now) const {
                                    [](const auto& match) { return match.has_value(); });
   return static_cast<double>(found) <
              options_.klt.broken_share * static_cast<double>(tracks_.size()) &&
-         tracks_.size() >= kLeastCorners && count_corners(now.corners) >= kLeastCorners;
+         tracks_.size() >= kLeastCorners && now.corners.size() >= kLeastCorners;
 }
 
 void KltTracker::add_rematches(const std::shared_ptr<const KltFrame>& now, Matches& matches) {

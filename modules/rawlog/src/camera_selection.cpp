@@ -108,4 +108,17 @@ std::string CameraProbe::names() const {
   return joined(list);
 }
 
+CameraCandidate choose_camera(const std::filesystem::path& log, const std::string& wanted,
+                              ExternalImages& images) {
+  LogReader reader(log);
+  CameraProbe probe(wanted, images);
+  while (!probe.decided()) {
+    const auto record = reader.next();
+    if (!record) break;
+    probe.add(*record);
+  }
+  if (!probe.has_images() && reader.damage()) throw InputError(*reader.damage());
+  return probe.choice(log);
+}
+
 }  // namespace oneac

@@ -60,4 +60,8 @@ class CameraProbe {
   double last_time_ = 0.0;
 };
 
+/// Reads the beginning of a log until the camera is clear. @throws as CameraProbe::choice does
+[[nodiscard]] CameraCandidate choose_camera(const std::filesystem::path& log,
+                                            const std::string& wanted, ExternalImages& images);
+
 }  // namespace oneac

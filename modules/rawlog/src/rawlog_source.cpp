@@ -34,19 +34,6 @@ struct Sight {
   std::optional<CameraView> right;
 };
 
-// Reads the beginning of the log until the camera is clear.
-CameraCandidate probe(const SourceOptions& options, ExternalImages& images) {
-  LogReader reader(options.log);
-  CameraProbe probe(options.camera, images);
-  while (!probe.decided()) {
-    const auto record = reader.next();
-    if (!record) break;
-    probe.add(*record);
-  }
-  if (!probe.has_images() && reader.damage()) throw InputError(*reader.damage());
-  return probe.choice(options.log);
-}
-
 }  // namespace
 
 void SourceOptions::validate() const {
@@ -93,7 +80,7 @@ class RawlogSource::Impl {
 RawlogSource::Impl::Impl(const SourceOptions& options)
     : options_((options.validate(), options)),
       images_(options.log, options.images_dir),
-      chosen_(probe(options, images_)),
+      chosen_(choose_camera(options.log, options.camera, images_)),
       convention_(
           mount_from_sensor_pose(chosen_.T_vehicle_sensor, options.mount_convention).convention),
       calibration_(calibration()),
