@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
 # Builds the fuzz targets with libFuzzer and runs each for SECONDS (default 60), two at once:
 #   tests/fuzz.sh [SECONDS] [TARGET...]     e.g. tests/fuzz.sh 3600 rawlog_source
+# ONEAC_FUZZ_RUNS=N ends a target after N inputs, too: the same inputs each time, as CI wants them.
 # Starts from tests/fuzz/corpus/TARGET; new inputs and findings go to build/fuzz/found/TARGET.
 # A finding goes to the corpus together with its repair, so that every test run repeats it.
 set -euo pipefail
@@ -22,7 +23,7 @@ fuzz() {
   mkdir -p "$found"
   # 10 s and 1 GB are promised; the sanitizers take memory of their own.
   if ! "build/fuzz/tests/fuzz/fuzz_$1" -max_total_time="$seconds" -timeout=10 \
-    -malloc_limit_mb=1024 -rss_limit_mb=2560 -max_len=16384 -print_final_stats=1 \
+    -seed="${ONEAC_FUZZ_SEED:-0}" -runs="${ONEAC_FUZZ_RUNS:--1}" -malloc_limit_mb=1024 -rss_limit_mb=2560 -max_len=16384 -print_final_stats=1 \
     -artifact_prefix="$found/finding-" "$found" "tests/fuzz/corpus/$1" >"$found.log" 2>&1; then
     tail -n 60 "$found.log"
     echo "fuzz: $1 has a finding, see build/fuzz/found/$1" >&2
