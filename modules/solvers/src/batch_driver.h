@@ -18,10 +18,12 @@ inline void store_lanes(const PoseLanes& pose, const BatchOutput& out, std::size
   store(pose.solved ? pose.sin_alpha : all(0.0), out.entry[1] + first);
   store(pose.solved ? pose.tx : all(0.0), out.entry[2] + first);
   store(pose.solved ? pose.tz : all(0.0), out.entry[3] + first);
+  // Masks have all bits or none: one of the three constants per lane, without a branch.
+  constexpr std::int64_t kSolved = kBatchSolved, kEmpty = kBatchEmpty, kOpen = kBatchUndecided;
+  const Mask status =
+      (pose.solved & kSolved) | (pose.empty & kEmpty) | (~(pose.solved | pose.empty) & kOpen);
   for (std::size_t i = 0; i < kLanes; ++i) {
-    out.status[first + i] = pose.solved[i] != 0  ? kBatchSolved
-                            : pose.empty[i] != 0 ? kBatchEmpty
-                                                 : kBatchUndecided;
+    out.status[first + i] = static_cast<std::uint8_t>(status[i]);
   }
 }
 

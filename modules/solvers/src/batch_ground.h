@@ -10,15 +10,6 @@ constexpr double kSurely = 2.0;
 // Depths of the plane in the second view [distances to it] this near zero are undecided.
 constexpr double kSurelyBehind = 1e-6;
 
-struct Column {
-  Lanes row[6];
-};
-
-inline Lanes dot6(const Column& a, const Column& b) {
-  return a.row[0] * b.row[0] + a.row[1] * b.row[1] + a.row[2] * b.row[2] + a.row[3] * b.row[3] +
-         a.row[4] * b.row[4] + a.row[5] * b.row[5];
-}
-
 /// The problem on the circle, zᵀ Q z − 2 hᵀ z, and what gives p, q back from z; times `det`.
 struct CircleProblem {
   Lanes det, cc, cs, ss, cb, sb;
@@ -26,19 +17,23 @@ struct CircleProblem {
   Mask regular;
 };
 
-/// PlaneGram::add and reduce() of planar_plane_system.cpp for n = (0, 1, 0), operation by
+/// PlaneGram::add and reduce() of plane_gram.h and plane_solve.h for n = (0, 1, 0), operation by
 /// operation.
 inline CircleProblem ground_problem(const AcLanes& ac) {
   const Lanes &x = ac.x, &y = ac.y, &u = ac.u, &v = ac.v;
-  const Column c{{x - u, -v, 1.0 - ac.a1, -ac.a2, -ac.a3, -ac.a4}};
-  const Column s{{-u * x - 1.0, -v * x, -u - ac.a1 * x, -ac.a2 * x, -v - ac.a3 * x, -ac.a4 * x}};
-  const Column q{{-u * y, -v * y, -ac.a1 * y, -u - ac.a2 * y, -ac.a3 * y, -v - ac.a4 * y}};
-  const Lanes cc = dot6(c, c), cs = dot6(c, s), ss = dot6(s, s);
-  const Lanes cq = dot6(c, q), sq = dot6(s, q), qq = dot6(q, q);
-  const Lanes cp = y * c.row[0] + c.row[3], sp = y * s.row[0] + s.row[3];
-  const Lanes pq = y * q.row[0] + q.row[3], pp = y * y + 1.0;
-  const Lanes cb = -(y * c.row[1] + c.row[5]), sb = -(y * s.row[1] + s.row[5]);
-  const Lanes qb = -(y * q.row[1] + q.row[5]);
+  const Lanes &a1 = ac.a1, &a2 = ac.a2, &a3 = ac.a3, &a4 = ac.a4;
+  const Lanes squares = u * u + v * v;
+  const Lanes sigma = (a1 * a1 + a2 * a2) + (a3 * a3 + a4 * a4) + squares;
+  const Lanes tau = a1 + x * u;
+  const Lanes g1u = a1 * u + a3 * v + u, g2 = a2 * u + a4 * v;
+  const Lanes cc = sigma + 1.0 + x * x - 2.0 * tau;
+  const Lanes cs = x * (sigma - tau - 1.0) + g1u - u;
+  const Lanes ss = x * (x * sigma + 2.0 * g1u) + squares + 1.0;
+  const Lanes pp = y * y + 1.0, pq = -(u * pp + a2 * y);
+  const Lanes cp = y * (x - u) - a2, sp = -y * (x * u + 1.0) - a2 * x;
+  const Lanes cq = y * (sigma - tau) + g2, sq = y * (x * sigma + g1u) + x * g2;
+  const Lanes qq = y * (y * sigma + 2.0 * g2) + squares;
+  const Lanes cb = y * v + a4, sb = x * cb, qb = v * pp + a4 * y;
   CircleProblem r;
   r.det = pp * qq - pq * pq;
   const Lanes trace = pp + qq;

@@ -55,9 +55,13 @@ inline Lanes magnitude(const Lanes& x) {
 }
 
 inline bool any(const Mask& mask) {
+#if ONEAC_BATCH_LANES == 4
+  return _mm256_movemask_pd(reinterpret_cast<__m256d>(mask)) != 0;
+#else
   std::int64_t bits = 0;
   for (std::size_t i = 0; i < kLanes; ++i) bits |= mask[i];
   return bits != 0;
+#endif
 }
 
 /// One correspondence per lane: x1 = (x, y), x2 = (u, v), A = [a1 a2; a3 a4].
