@@ -2,16 +2,12 @@
 
 #include "minimise_on_circle.h"
 #include "plane_gram.h"
+#include "plane_null_vector.h"
 #include "thresholds.h"
 
 #include <cmath>
 
 namespace oneac::internal {
-
-/// Solution (cos α, sin α, p, q) with a unit (cos α, sin α).
-struct PlaneSolution {
-  double c, s, p, q;
-};
 
 /// [A | −b]ᵀ[A | −b] − λI with p and q eliminated: a symmetric matrix over (c, s, 1), and what
 /// gives p, q back. All of it times `det`, the determinant of the block of p and q, so that no
@@ -66,7 +62,7 @@ struct ReducedGram {
 /// Homogeneous least squares: the eigenvector of the smallest eigenvalue of [A | −b]ᵀ[A | −b],
 /// scaled to a last entry of one, then (c, s) normalised. False when the last entry vanishes or the
 /// null space is not unique.
-[[nodiscard]] inline bool solve_rapid(const PlaneGram& g, PlaneSolution& x) {
+[[nodiscard]] inline bool search_null_vector(const PlaneGram& g, PlaneSolution& x) {
   // Newton on the last pivot of the elimination, a concave decreasing function of the shift whose
   // first root is the smallest eigenvalue, as long as all other pivots are positive. The vector
   // follows the last step with its first two derivatives, which needs no new elimination.
@@ -111,6 +107,11 @@ struct ReducedGram {
     shift += delta;
   }
   return false;
+}
+
+/// The same, by the fast way where it leads there.
+[[nodiscard]] inline bool solve_rapid(const PlaneGram& g, PlaneSolution& x) {
+  return follow_null_vector(g, x) || search_null_vector(g, x);
 }
 
 /// min |A x − b|² subject to c² + s² = 1. False when p, q are not determined.

@@ -21,6 +21,18 @@ constexpr double kHalleyStep = 1e-4;
 constexpr int kEigenvalueSteps = 40;
 constexpr double kEigenvectorStep = 1e-4;
 constexpr double kLinearStep = 1e-6;
+// Inverse iteration with Rayleigh quotients triples the digits a step; the bisection takes over
+// where these are not enough.
+constexpr int kRayleighSteps = 6;
+// (λ1 − λ)/λ2 at which one and two more inverse iterations leave less than 1e-10 of the other
+// eigenvectors, of which a column of the adjugate has at most ten times that share.
+constexpr double kVeryNear = 1e-6;
+constexpr double kNear = 1e-4;
+// Share of the trace of a diagonal entry of the adjugate whose column is as good as any.
+constexpr double kTinyColumn = 0.01;
+// Shares of the null vector of a last entry, and of a rotation, that are rounding.
+constexpr double kNoLastEntry = 1e-9;
+constexpr double kNoRotation = 1e-12;
 // A determinant below this share of the squared trace is too near the hard case for Halley's
 // method.
 constexpr double kNearHardCase = 1e-7;

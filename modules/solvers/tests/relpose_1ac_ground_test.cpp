@@ -261,9 +261,9 @@ TEST(Relpose1acGroundRapid, IsTheNullVectorOfTheSingularValueDecomposition) {
     const auto found = relpose_1ac_ground_rapid(noisy);
     if (found.empty()) continue;
     ++compared;
-    EXPECT_NEAR(found[0].tx, x(2), 1e-7) << "case " << i << " of seed 15";
-    EXPECT_NEAR(found[0].tz, x(3), 1e-7) << "case " << i << " of seed 15";
-    EXPECT_NEAR(found[0].sin_alpha * x(0), found[0].cos_alpha * x(1), 1e-7);
+    EXPECT_NEAR(found[0].tx, x(2), 1e-9) << "case " << i << " of seed 15";
+    EXPECT_NEAR(found[0].tz, x(3), 1e-9) << "case " << i << " of seed 15";
+    EXPECT_NEAR(found[0].sin_alpha * x(0), found[0].cos_alpha * x(1), 1e-9);
   }
   EXPECT_GT(compared, 4800);
 }
