@@ -4,9 +4,12 @@
 
 namespace oneac::internal {
 
-/// Finite points; the affinity is not looked at.
+/// Finite points that may be a surface's. Of the affinity only the orientation counts, which is the
+/// identity's where there is none: a negative determinant is a mirror image, and no camera sees a
+/// surface from its back.
 [[nodiscard]] inline bool has_points(const AffineCorrespondence& ac) {
-  return ac.x1.allFinite() && ac.x2.allFinite();
+  const bool mirrored = ac.A(0, 0) * ac.A(1, 1) < ac.A(0, 1) * ac.A(1, 0);
+  return !mirrored && ac.x1.allFinite() && ac.x2.allFinite();
 }
 
 /// Finite, not mirrored.

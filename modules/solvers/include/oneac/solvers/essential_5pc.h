@@ -13,7 +13,8 @@ namespace oneac {
 /// to the five-point relative pose problem", 2004: Gauss-Jordan elimination of the ten cubics, a
 /// polynomial of degree ten by Sturm's theorem, then Gauss-Newton on the cubics for the last
 /// digits. docs/solvers/essential_5pc.md
-/// @param points  exactly the first five are used; their affinities are not looked at
+/// @param points  exactly the first five are used; of their affinities only a mirror image
+///                (det A < 0) counts, which is refused
 /// @return        up to ten E with |E| = √2
 /// @degenerate    pure rotation, no motion, coincident points, not finite: empty. A plane is no
 /// degeneracy

@@ -13,7 +13,8 @@ namespace oneac {
 /// Model: x2ᵀ E x1 = 0, one row per point; Hartley and Zisserman, algorithm 11.1, with the singular
 /// values set to (1, 1, 0). Eight points are solved exactly, more in algebraic least squares after
 /// Hartley's normalisation. docs/solvers/essential_8pc.md
-/// @param points  N ≥ 8; their affinities are not looked at
+/// @param points  N ≥ 8; of their affinities only a mirror image
+///                (det A < 0) counts, which is refused
 /// @return        at most one E with |E| = √2
 /// @degenerate    points of one plane, pure rotation, fewer than eight, not finite: empty
 /// @cost          about 2 µs for eight, no allocation; pure, thread-safe

@@ -11,7 +11,8 @@ namespace oneac {
 ///
 /// Model: x2 ~ H x1, two rows per point, eq. (4) of Gal 2020; Hartley and Zisserman, algorithm 4.2.
 /// Four points are solved exactly, more in algebraic least squares. docs/solvers/homography_4pc.md
-/// @param points  N ≥ 4; their affinities are not looked at
+/// @param points  N ≥ 4; of their affinities only a mirror image
+///                (det A < 0) counts, which is refused
 /// @return        at most one H, scaled to a middle singular value of one and such that x2ᵀ H x1 >
 /// 0 for most
 ///                points, ready for decompose_homography

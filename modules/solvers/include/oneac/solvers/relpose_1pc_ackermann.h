@@ -12,9 +12,9 @@ namespace oneac {
 ///
 /// Model: t ∝ (sin α/2, 0, −cos α/2), hence tan α/2 = (y' x − x' y) / (y' + y).
 /// docs/solvers/relpose_1pc_ackermann.md
-/// @param points  N ≥ 1 of any scene, least squares; their affinities are not looked at. The camera
-/// is
-///                taken to sit above the rear axle and to look along the car
+/// @param points  N ≥ 1 of any scene, least squares; of their affinities only a
+///                mirror image (det A < 0) counts, which is refused. The camera is taken to sit
+///                above the rear axle and to look along the car
 /// @return        at most one pose T_2_1, |t| = 1; the sign (forwards, backwards) from the points'
 /// depth
 /// @degenerate    y = y' = 0, no motion, not finite: empty. Turning on the spot breaks the model

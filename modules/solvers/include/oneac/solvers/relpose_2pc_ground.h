@@ -12,7 +12,8 @@ namespace oneac {
 ///
 /// Model: the point rows of A_gd (cos α, sin α, p, q)ᵀ = b, four equations in three unknowns, least
 /// squares under cos²α + sin²α = 1. docs/solvers/relpose_2pc_ground.md
-/// @param points  N ≥ 2; their affinities are not looked at
+/// @param points  N ≥ 2; of their affinities only a mirror image
+///                (det A < 0) counts, which is refused
 /// @return        at most one pose T_2_1; (tx, tz) in camera heights, sign included
 /// @degenerate    fewer than two points under the horizon, coincident points, no motion, not
 /// finite: empty

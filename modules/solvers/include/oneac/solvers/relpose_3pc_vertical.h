@@ -12,7 +12,8 @@ namespace oneac {
 ///
 /// Model: the point rows of A_vert, h5 = 1, in least squares; then as relpose_1ac_wall.
 /// docs/solvers/relpose_3pc_vertical.md
-/// @param points  N ≥ 3; their affinities are not looked at
+/// @param points  N ≥ 3; of their affinities only a mirror image
+///                (det A < 0) counts, which is refused
 /// @return        up to two poses T_2_1, t in units of the distance to the wall, n towards the wall
 /// @degenerate    fewer than three points off the horizon, points on one vertical line, no motion:
 /// empty
