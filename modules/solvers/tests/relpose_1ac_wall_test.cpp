@@ -97,7 +97,7 @@ TEST(Relpose1acWall, EveryCandidateReproducesTheHomographyInFrontOfBothCameras) 
     for (const WallPose& pose : relpose_1ac_wall(c.ac)) {
       EXPECT_NEAR(std::hypot(pose.cos_alpha, pose.sin_alpha), 1.0, 1e-14);
       EXPECT_NEAR(pose.normal().norm(), 1.0, 1e-14);
-      EXPECT_LT((homography(pose) - plane_induced_homography(c.T, c.plane)).norm(), 1e-7);
+      EXPECT_LT((homography(pose) - plane_induced_homography(c.T, c.plane)).norm(), kExact);
       const double depth = 1.0 / pose.normal().dot(c.ac.x1.homogeneous());
       EXPECT_GT(depth, 0.0);
       EXPECT_GT((pose.pose() * (depth * c.ac.x1.homogeneous())).z(), 0.0);
@@ -158,7 +158,7 @@ TEST(Relpose1acWall, ClosedFormOfOneIsTheLeastSquaresOfMany) {
     const auto many = relpose_nac_wall(AcSpan(&noisy, 1));
     ASSERT_EQ(one.size(), many.size());
     for (std::size_t k = 0; k < one.size(); ++k) {
-      EXPECT_LT((homography(one[k]) - homography(many[k])).norm(), 1e-6) << "case " << i;
+      EXPECT_LT((homography(one[k]) - homography(many[k])).norm(), kExact) << "case " << i;
     }
   }
 }
