@@ -1,5 +1,7 @@
 #include "mode_ranking.h"
 
+#include "evenly_spaced.h"
+
 #include "oneac/geometry/essential.h"
 #include "oneac/robust/polish.h"
 #include "oneac/robust/rotation_only.h"
@@ -36,13 +38,6 @@ constexpr double kCoarseStep = 1e-5;
 // A motion settles the matter when the points shift by so many bounds beside its rotation (median):
 // below, a wrong direction of travel leaves them within the bound as well.
 constexpr double kClearShift = 3.0;
-
-PointSet evenly_spaced(AcSpan acs, std::size_t count) {
-  if (acs.size() <= count) return PointSet(acs);
-  std::vector<AffineCorrespondence> some(count);
-  for (std::size_t k = 0; k < count; ++k) some[k] = acs[k * acs.size() / count];
-  return PointSet(some);
-}
 
 /// How close two poses are to count as one, as cosines.
 struct Closeness {

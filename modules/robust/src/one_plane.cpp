@@ -1,5 +1,7 @@
 #include "one_plane.h"
 
+#include "evenly_spaced.h"
+
 #include "oneac/geometry/angular_errors.h"
 #include "oneac/solvers/homography_decomposition.h"
 
@@ -25,15 +27,6 @@ constexpr std::size_t kLookedAt = 128;
 // points once in fifty thousand times.
 constexpr std::size_t kGlance = 32;
 constexpr double kGlanceShare = 0.75;
-
-/// At most `count`, evenly spaced.
-std::vector<AffineCorrespondence> evenly_spaced(const std::vector<AffineCorrespondence>& all,
-                                                std::size_t count) {
-  if (all.size() <= count) return all;
-  std::vector<AffineCorrespondence> some(count);
-  for (std::size_t k = 0; k < count; ++k) some[k] = all[k * all.size() / count];
-  return some;
-}
 
 /// At most kLookedAt inliers, evenly spaced.
 std::vector<AffineCorrespondence> some_inliers(AcSpan acs, const std::vector<bool>& inliers) {

@@ -60,6 +60,12 @@ Eigen::Matrix3d descend(Eigen::Matrix3d R, AcSpan acs, double threshold, double 
   return R;
 }
 
+double transfer_error(const Eigen::Matrix3d& R, const AffineCorrespondence& ac) {
+  const Eigen::Vector3d y = R * ac.x1.homogeneous();
+  return y.z() > 1e-6 ? (y.head<2>() / y.z() - ac.x2).norm()
+                      : std::numeric_limits<double>::infinity();
+}
+
 }  // namespace
 
 RotationFit refine_rotation(const Eigen::Matrix3d& start, AcSpan acs, double threshold) {
@@ -72,16 +78,6 @@ RotationFit refine_rotation(const Eigen::Matrix3d& start, AcSpan acs, double thr
   if (covariance.allFinite()) fit.covariance = covariance;
   return fit;
 }
-
-namespace {
-
-double transfer_error(const Eigen::Matrix3d& R, const AffineCorrespondence& ac) {
-  const Eigen::Vector3d y = R * ac.x1.homogeneous();
-  return y.z() > 1e-6 ? (y.head<2>() / y.z() - ac.x2).norm()
-                      : std::numeric_limits<double>::infinity();
-}
-
-}  // namespace
 
 std::vector<double> rotation_transfer_errors(const Eigen::Matrix3d& R, AcSpan acs) {
   std::vector<double> errors;
