@@ -7,7 +7,7 @@
 set -euo pipefail
 source "$(dirname "${BASH_SOURCE[0]}")/../apps/setup.sh"
 
-install_packages build test
+install_packages build test fuzz
 cd "$oneac_root"
 seconds=${1:-60}
 shift || true
