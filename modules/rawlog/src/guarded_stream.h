@@ -16,10 +16,9 @@ namespace oneac {
 /// libjpeg that ends the program.
 ///
 /// - A count (any four bytes but those of a string of four letters) above kHarmlessCount is checked
-/// against the bytes that are left, and
-///   read as 0 when there are fewer. The record then fails to parse, or the four bytes were a
-///   number that nobody here uses: no class whose content is used stores such a number in four
-///   bytes.
+///   against the bytes that are left, and read as 0 when there are fewer. The record then fails to
+///   parse, or the four bytes were a number that nobody here uses: no class whose content is used
+///   stores such a number in four bytes.
 /// - A matrix may not be larger than the rest of the file.
 /// - Images are taken out: MRPT reads an external image whose name is a number, see
 ///   take_images().
