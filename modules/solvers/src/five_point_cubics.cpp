@@ -79,11 +79,10 @@ using Cubics = std::array<Cubic, 10>;
   return cubics;
 }
 
-/// Reduced row echelon form of the rows 4 … 9 with respect to the first ten monomials. Returns the
-/// least pivot as a share of the largest before it, zero when singular.
-[[nodiscard]] double eliminate(Cubics& m) {
+/// Reduced row echelon form of the rows 4 … 9 with respect to the first ten monomials; false when
+/// singular.
+[[nodiscard]] bool eliminate(Cubics& m) {
   double first = 0.0;
-  double least = 1.0;
   for (std::size_t k = 0; k < 10; ++k) {
     std::size_t pivot = k;
     for (std::size_t i = k + 1; i < 10; ++i) {
@@ -91,8 +90,7 @@ using Cubics = std::array<Cubic, 10>;
     }
     const double largest = std::abs(m[pivot][k]);
     first = std::max(first, largest);
-    if (!(largest > kSingularCubics * first) || !std::isfinite(largest)) return 0.0;
-    least = std::min(least, largest / first);
+    if (!(largest > kSingularCubics * first) || !std::isfinite(largest)) return false;
     if (pivot != k) std::swap(m[pivot], m[k]);
     const double inverse = 1.0 / m[k][k];
     for (std::size_t j = k; j < 20; ++j) m[k][j] *= inverse;
@@ -108,7 +106,7 @@ using Cubics = std::array<Cubic, 10>;
       m[i][k] = 0.0;
     }
   }
-  return least;
+  return true;
 }
 
 /// ⟨a⟩ − z⟨b⟩, where the leading monomials cancel.
@@ -127,13 +125,13 @@ void add_scaled_product(const double (&a)[N], const double (&b)[M], double scale
 
 }  // namespace
 
-double five_point_rows(const Basis& basis, PolynomialRow (&B)[3]) {
+bool five_point_rows(const Basis& basis, PolynomialRow (&B)[3]) {
   Cubics cubics = cubics_of(basis);
-  const double pivot = eliminate(cubics);
+  if (!eliminate(cubics)) return false;
   B[0] = difference(cubics[4], cubics[5]);
   B[1] = difference(cubics[6], cubics[7]);
   B[2] = difference(cubics[8], cubics[9]);
-  return pivot;
+  return true;
 }
 
 void determinant(const PolynomialRow (&B)[3], double (&d)[11]) {

@@ -14,10 +14,9 @@ struct PolynomialRow {
   double one[5];
 };
 
-/// B(z) of an orthonormal basis: the ten cubics E Eᵀ E = ½ tr(E Eᵀ) E, det E = 0, eliminated.
-/// Returns the least pivot as a share of the largest: digits that the roots keep. Zero when the
-/// cubics are dependent, that is, when there is a continuum of solutions.
-[[nodiscard]] double five_point_rows(const Basis& basis, PolynomialRow (&B)[3]);
+/// B(z) of a basis: the ten cubics E Eᵀ E = ½ tr(E Eᵀ) E, det E = 0, eliminated; false when they
+/// are dependent, that is, when there is a continuum of solutions.
+[[nodiscard]] bool five_point_rows(const Basis& basis, PolynomialRow (&B)[3]);
 
 /// det B(z), degree ten, ascending.
 void determinant(const PolynomialRow (&B)[3], double (&d)[11]);
