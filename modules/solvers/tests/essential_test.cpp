@@ -44,8 +44,8 @@ TEST(Essential5pc, EveryCandidateIsAnEssentialMatrixThroughTheFivePoints) {
   }
 }
 
-/// Of 1000 scenes whose translations are so much shorter, those with the truth among the candidates,
-/// which lose as many digits.
+/// Of 1000 scenes whose translations are so much shorter, those with the truth among the
+/// candidates, which lose as many digits.
 int found_with_short_translations(double factor, std::uint64_t seed) {
   SceneGenerator scene(seed);
   int found = 0;
