@@ -56,6 +56,10 @@ struct ConsensusKernels {
                       float squared_scale, NormalSums<float>& out);
   void (*normal_sums_double)(const PoseNumbers<double>& pose, const PointArrays<double>& points,
                              double squared_scale, NormalSums<double>& out);
+  /// The same with H of Newton's method: a point counts by the curvature of its loss, (1 − 4ρ) of
+  /// its weight, below zero for an outlier. H may be indefinite.
+  void (*newton_sums)(const PoseNumbers<double>& pose, const PointArrays<double>& points,
+                      double squared_scale, NormalSums<double>& out);
 };
 
 /// @pre is_supported(level)

@@ -97,7 +97,7 @@ struct PartialNormalSums {
 /// Points in the lanes. With y = R x1 and q = x2 × t the algebraic distance x2ᵀ[t]×R x1 is q·y, its
 /// derivative y × q with respect to w and (y × x2)·T with respect to b. The squared gradient norm
 /// is |l|² + |k|² with the lines l = (t × y)₁₂ and k = (Rᵀ q)₁₂.
-template <class Number, bool kExact>
+template <class Number, bool kExact, bool kNewton>
 void normal_part(const PoseNumbers<Number>& pose, const PointArrays<Number>& points,
                  Number squared_scale, std::size_t part, PartialNormalSums<Number>& out) {
   using Lanes = typename LanesOf<Number>::Type;
@@ -126,7 +126,8 @@ void normal_part(const PoseNumbers<Number>& pose, const PointArrays<Number>& poi
     const Lanes gradient =
         lx * lx + ly * ly + kx * kx + ky * ky + static_cast<Number>(kTinyGradient);
     const Lanes inverse = 1 / (algebraic * algebraic + squared_scale * gradient);
-    cost += algebraic * algebraic * inverse * weight;
+    const Lanes rho = algebraic * algebraic * inverse;
+    cost += rho * weight;
     // ρ'(r)/(2 r) over the squared gradient norm.
     const Lanes w = squared_scale * gradient * inverse * inverse * weight;
     Vector<Lanes> by_w = cross(y, q);
@@ -150,9 +151,11 @@ void normal_part(const PoseNumbers<Number>& pose, const PointArrays<Number>& poi
                         by_t.x * pose.T1[0] + by_t.y * pose.T1[1] + by_t.z * pose.T1[2],
                         by_t.x * pose.T2[0] + by_t.y * pose.T2[1] + by_t.z * pose.T2[2]};
     const Lanes wr = w * algebraic;
+    const Lanes curved = 1 - 4 * rho;
+    const Lanes h = !kNewton ? w : w * curved;
     for (int k = 0, n = 0; k < 5; ++k) {
       g[k] += wr * J[k];
-      const Lanes wJ = w * J[k];
+      const Lanes wJ = h * J[k];
       for (int m = k; m < 5; ++m) H[n++] += wJ * J[m];
     }
   }
@@ -161,20 +164,21 @@ void normal_part(const PoseNumbers<Number>& pose, const PointArrays<Number>& poi
   for (int k = 0; k < 15; ++k) store(H[k], out.H[k] + part);
 }
 
-template <class Number, bool kExact>
+template <class Number, bool kExact, bool kNewton>
 void normal_sums(const PoseNumbers<Number>& pose, const PointArrays<Number>& points,
                  Number squared_scale, NormalSums<Number>& out) {
   PartialNormalSums<Number> partial;
   for (std::size_t part = 0; part < kPartialSums<Number>; part += kLanes<Number>) {
-    normal_part<Number, kExact>(pose, points, squared_scale, part, partial);
+    normal_part<Number, kExact, kNewton>(pose, points, squared_scale, part, partial);
   }
   out.cost = sum(partial.cost);
   for (int k = 0; k < 5; ++k) out.g[k] = sum(partial.g[k]);
   for (int k = 0; k < 15; ++k) out.H[k] = sum(partial.H[k]);
 }
 
-constexpr ConsensusKernels kKernels{&planar_costs, &msac, &normal_sums<float, false>,
-                                    &normal_sums<double, true>};
+constexpr ConsensusKernels kKernels{&planar_costs, &msac, &normal_sums<float, false, false>,
+                                    &normal_sums<double, true, false>,
+                                    &normal_sums<double, true, true>};
 
 }  // namespace
 }  // namespace oneac::internal

@@ -103,8 +103,10 @@ std::optional<RobustResult> turning(AcSpan acs, const Eigen::Matrix3d& R_start,
 }
 
 void conclude(const RelativePose& candidate, AcSpan acs, double threshold, RobustResult& result) {
-  const PolishResult polished =
-      polish(candidate, PrecisePointSet(acs), {threshold, PolishOptions{}.max_iterations});
+  PolishOptions options;
+  options.threshold = threshold;
+  options.starts_near = true;  // the candidate was polished in single precision
+  const PolishResult polished = polish(candidate, PrecisePointSet(acs), options);
   const Eigen::Matrix3d E = essential_matrix(polished.pose);
   result.inliers.assign(acs.size(), false);
   result.cost = 0.0;

@@ -4,6 +4,8 @@
 
 #include <Eigen/Dense>
 
+#include <type_traits>
+
 namespace oneac {
 namespace {
 
@@ -15,14 +17,24 @@ constexpr double kLastDamping = 1e6;    // steps so short that nothing is left t
 // Relative decrease of the cost below which another step is not worth its time.
 constexpr double kSmallestGain = 1e-9;
 
+/// Whose matrix the normal equations hold.
+enum class Curvature {
+  kWeights,  ///< Σ ω JᵀJ: never indefinite, the information of the result; converges linearly
+  kNewton    ///< the loss's own curvature: converges quadratically, from near enough
+};
+
 void sums(const internal::ConsensusKernels& kernels, const internal::PoseNumbers<float>& pose,
-          const PointSet& points, float squared_scale, internal::NormalSums<float>& out) {
+          const PointSet& points, float squared_scale, Curvature /*only one*/,
+          internal::NormalSums<float>& out) {
   kernels.normal_sums(pose, internal::arrays_of(points), squared_scale, out);
 }
 
 void sums(const internal::ConsensusKernels& kernels, const internal::PoseNumbers<double>& pose,
-          const PrecisePointSet& points, double squared_scale, internal::NormalSums<double>& out) {
-  kernels.normal_sums_double(pose, internal::arrays_of(points), squared_scale, out);
+          const PrecisePointSet& points, double squared_scale, Curvature curvature,
+          internal::NormalSums<double>& out) {
+  const auto kernel =
+      curvature == Curvature::kNewton ? kernels.newton_sums : kernels.normal_sums_double;
+  kernel(pose, internal::arrays_of(points), squared_scale, out);
 }
 
 template <class Number>
@@ -38,59 +50,97 @@ internal::PoseNumbers<Number> numbers_of(const RelativePose& pose) {
   return numbers;
 }
 
-struct NormalEquations {
-  Matrix5 H;
-  Vector5 g;
-  double cost = 0.0;
+/// Minimises over the points by Levenberg–Marquardt.
+template <class Number>
+class Minimiser {
+ public:
+  Minimiser(const BasicPointSet<Number>& points, const PolishOptions& options)
+      : points_(points), options_(options) {}
+
+  [[nodiscard]] PolishResult from(const RelativePose& start, Curvature curvature) {
+    result_.pose = {start.R, start.t.normalized()};
+    now_ = build(result_.pose, curvature);
+    double damping = kFirstDamping;
+    bool converged = false;
+    for (; !converged && result_.iterations < options_.max_iterations; ++result_.iterations) {
+      const Eigen::LDLT<Matrix5> factor = damped(damping);
+      if (curvature == Curvature::kNewton && !factor.isPositive()) {
+        curvature = Curvature::kWeights;
+        now_ = build(result_.pose, curvature);
+        continue;
+      }
+      const Vector5 step = -factor.solve(now_.g);
+      if (!step.allFinite()) break;
+      converged = step.norm() < options_.converged;
+      // A step that moves the points by less than the loss is wide ends in the basin.
+      if (kHasNewton && step.norm() < options_.threshold) curvature = Curvature::kNewton;
+      // The matrix of the result is that of the weights.
+      if (converged) curvature = Curvature::kWeights;
+      const double gain = try_step(step, curvature);
+      converged = converged || (gain > 0.0 && gain < kSmallestGain * now_.cost);
+      damping *= gain > 0.0 ? 0.1 : 10.0;
+      if (damping > kLastDamping) break;
+    }
+    return conclude();
+  }
+
+ private:
+  struct NormalEquations {
+    Matrix5 H;
+    Vector5 g;
+    double cost = 0.0;
+    Curvature curvature = Curvature::kWeights;
+  };
+
+  [[nodiscard]] NormalEquations build(const RelativePose& pose, Curvature curvature) const {
+    const double scale = options_.threshold;
+    internal::NormalSums<Number> out;
+    sums(kernels_, numbers_of<Number>(pose), points_, static_cast<Number>(scale * scale), curvature,
+         out);
+    NormalEquations n;
+    n.curvature = curvature;
+    n.cost = static_cast<double>(out.cost);
+    for (int k = 0, entry = 0; k < 5; ++k) {
+      n.g(k) = static_cast<double>(out.g[k]);
+      for (int l = k; l < 5; ++l, ++entry) {
+        n.H(k, l) = n.H(l, k) = static_cast<double>(out.H[entry]);
+      }
+    }
+    return n;
+  }
+
+  [[nodiscard]] Eigen::LDLT<Matrix5> damped(double damping) const {
+    Matrix5 H = now_.H;
+    H.diagonal() += damping * now_.H.diagonal() + Vector5::Constant(1e-12);
+    return H.ldlt();
+  }
+
+  /// Takes the step when the cost falls. Returns by how much, zero or less when it does not.
+  [[nodiscard]] double try_step(const Vector5& step, Curvature curvature) {
+    const RelativePose candidate = retract(result_.pose, step);
+    const NormalEquations next = build(candidate, curvature);
+    const double gain = now_.cost - next.cost;
+    if (gain > 0.0) {
+      result_.pose = candidate;
+      now_ = next;
+    }
+    return gain;
+  }
+
+  [[nodiscard]] PolishResult conclude() {
+    if (now_.curvature != Curvature::kWeights) now_ = build(result_.pose, Curvature::kWeights);
+    result_.cost = now_.cost;
+    result_.information = now_.H * (options_.threshold * options_.threshold);
+    return result_;
+  }
+
+  static constexpr bool kHasNewton = std::is_same_v<Number, double>;
+  const internal::ConsensusKernels& kernels_ = internal::consensus_kernels(best_simd_level());
+  const BasicPointSet<Number>& points_;
+  const PolishOptions& options_;
+  PolishResult result_;
+  NormalEquations now_;
 };
-
-template <class Number>
-NormalEquations build(const internal::ConsensusKernels& kernels, const RelativePose& pose,
-                      const BasicPointSet<Number>& points, double scale) {
-  internal::NormalSums<Number> out;
-  sums(kernels, numbers_of<Number>(pose), points, static_cast<Number>(scale * scale), out);
-  NormalEquations n;
-  n.cost = static_cast<double>(out.cost);
-  for (int k = 0, entry = 0; k < 5; ++k) {
-    n.g(k) = static_cast<double>(out.g[k]);
-    for (int l = k; l < 5; ++l, ++entry) {
-      n.H(k, l) = n.H(l, k) = static_cast<double>(out.H[entry]);
-    }
-  }
-  return n;
-}
-
-template <class Number>
-PolishResult levenberg_marquardt(const RelativePose& start, const BasicPointSet<Number>& points,
-                                 const PolishOptions& options) {
-  const auto& kernels = internal::consensus_kernels(best_simd_level());
-  PolishResult result;
-  result.pose = {start.R, start.t.normalized()};
-  NormalEquations now = build(kernels, result.pose, points, options.threshold);
-  double damping = kFirstDamping;
-  for (; result.iterations < options.max_iterations; ++result.iterations) {
-    Matrix5 H = now.H;
-    H.diagonal() += damping * now.H.diagonal() + Vector5::Constant(1e-12);
-    const Vector5 step = -H.ldlt().solve(now.g);
-    if (!step.allFinite()) break;
-    const RelativePose candidate = retract(result.pose, step);
-    const NormalEquations next = build(kernels, candidate, points, options.threshold);
-    if (next.cost < now.cost) {
-      const bool converged =
-          step.norm() < options.converged || now.cost - next.cost < kSmallestGain * now.cost;
-      result.pose = candidate;
-      now = next;
-      damping *= 0.1;
-      if (converged) break;
-    } else {
-      damping *= 10.0;
-      if (damping > kLastDamping || step.norm() < options.converged) break;
-    }
-  }
-  result.cost = now.cost;
-  result.information = now.H * (options.threshold * options.threshold);
-  return result;
-}
 
 }  // namespace
 
@@ -111,17 +161,18 @@ RelativePose retract(const RelativePose& pose, const Vector5& step) {
 }
 
 PolishResult polish(const RelativePose& start, AcSpan acs, const PolishOptions& options) {
-  return levenberg_marquardt(start, PrecisePointSet(acs), options);
+  return polish(start, PrecisePointSet(acs), options);
 }
 
 PolishResult polish(const RelativePose& start, const PrecisePointSet& points,
                     const PolishOptions& options) {
-  return levenberg_marquardt(start, points, options);
+  const auto first = options.starts_near ? Curvature::kNewton : Curvature::kWeights;
+  return Minimiser<double>(points, options).from(start, first);
 }
 
 PolishResult polish_coarsely(const RelativePose& start, const PointSet& points,
                              const PolishOptions& options) {
-  return levenberg_marquardt(start, points, options);
+  return Minimiser<float>(points, options).from(start, Curvature::kWeights);
 }
 
 }  // namespace oneac

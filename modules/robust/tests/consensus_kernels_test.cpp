@@ -48,6 +48,7 @@ TEST(ConsensusKernels, GiveTheSameBitsAtEveryLevel) {
     std::vector<float> entry(16, 0.3F);
     NormalSums<float> sums[3];
     NormalSums<double> precise_sums[3];
+    NormalSums<double> newton_sums[3];
     float costs[3][16];
     float msac[3];
     int levels = 0;
@@ -56,11 +57,13 @@ TEST(ConsensusKernels, GiveTheSameBitsAtEveryLevel) {
       const ConsensusKernels& k = consensus_kernels(level);
       k.normal_sums(some_pose<float>(), arrays_of(points), 0.1F, sums[levels]);
       k.normal_sums_double(some_pose<double>(), arrays_of(precise), 0.1, precise_sums[levels]);
+      k.newton_sums(some_pose<double>(), arrays_of(precise), 0.1, newton_sums[levels]);
       k.planar_costs({entry.data(), entry.data(), entry.data(), entry.data(), 16},
                      arrays_of(points), 4.0F, costs[levels]);
       msac[levels] = k.msac(E, arrays_of(points), 0, points.x1.size() / kPointGroup, 4.0F);
       EXPECT_TRUE(same_bits(sums[levels], sums[0])) << count;
       EXPECT_TRUE(same_bits(precise_sums[levels], precise_sums[0])) << count;
+      EXPECT_TRUE(same_bits(newton_sums[levels], newton_sums[0])) << count;
       EXPECT_TRUE(same_bits(costs[levels], costs[0])) << count;
       EXPECT_TRUE(same_bits(msac[levels], msac[0])) << count;
       ++levels;

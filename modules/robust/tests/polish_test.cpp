@@ -54,6 +54,25 @@ TEST(Polish, StopsWhereItsCostIsFlat) {
   }
 }
 
+TEST(Polish, ConvergesQuadraticallyWhereItStartsNear) {
+  SceneGenerator scene(17);
+  for (int trial = 0; trial < 20; ++trial) {
+    RelativePose T = scene.general_motion();
+    T.t.normalize();
+    auto acs = noisy_scene(scene, T, 5e-4);
+    for (std::size_t i = 0; i < acs.size(); i += 6) acs[i].x2 = scene.image_point();
+    PolishOptions options{2e-3, 100, 1e-9};
+    const PolishResult best = polish(T, acs, options);
+    Eigen::Matrix<double, 5, 1> off;
+    for (int k = 0; k < 5; ++k) off(k) = scene.uniform(-1e-4, 1e-4);
+    options.starts_near = true;
+    const PolishResult result = polish(retract(best.pose, off), acs, options);
+    EXPECT_NEAR(result.cost, best.cost, 1e-9 * best.cost) << "trial " << trial;
+    EXPECT_LE(result.iterations, 5) << "trial " << trial;  // by weights alone twenty and more
+    EXPECT_TRUE(result.information.isApprox(best.information, 1e-6)) << "trial " << trial;
+  }
+}
+
 TEST(Polish, InSinglePrecisionEndsBesideTheDoubleOne) {
   SceneGenerator scene(16);
   for (int trial = 0; trial < 20; ++trial) {

@@ -11,6 +11,8 @@ struct PolishOptions {
   double threshold = 1e-3;  ///< [-] scale of the robust loss, normalised image units
   int max_iterations = 20;
   double converged = 1e-6;  ///< [rad] a smaller step ends it; what noise leaves is 1e-4 and more
+  /// The start lies within the loss's width of the minimum: Newton at once, else when steps say so
+  bool starts_near = false;
 };
 
 struct PolishResult {
