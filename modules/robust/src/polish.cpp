@@ -63,8 +63,8 @@ class Minimiser {
     double damping = kFirstDamping;
     bool converged = false;
     for (; !converged && result_.iterations < options_.max_iterations; ++result_.iterations) {
-      const Eigen::LDLT<Matrix5> factor = damped(damping);
-      if (curvature == Curvature::kNewton && !factor.isPositive()) {
+      const Eigen::LLT<Matrix5> factor = damped(damping);
+      if (now_.curvature == Curvature::kNewton && factor.info() != Eigen::Success) {
         curvature = Curvature::kWeights;
         now_ = build(result_.pose, curvature);
         continue;
@@ -109,10 +109,10 @@ class Minimiser {
     return n;
   }
 
-  [[nodiscard]] Eigen::LDLT<Matrix5> damped(double damping) const {
+  [[nodiscard]] Eigen::LLT<Matrix5> damped(double damping) const {
     Matrix5 H = now_.H;
     H.diagonal() += damping * now_.H.diagonal() + Vector5::Constant(1e-12);
-    return H.ldlt();
+    return H.llt();
   }
 
   /// Takes the step when the cost falls. Returns by how much, zero or less when it does not.
