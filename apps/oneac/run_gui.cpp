@@ -167,9 +167,9 @@ class RunGui::Impl {
     const Eigen::Vector3d at = keyframe.T_first_cam.translation();
     keyframes_->insertPoint(single(at.x()), single(at.y()), single(at.z()));
     for (const MapPoint& point : keyframe.points) {
-      const Eigen::Vector3d& p = point.position;
+      const Eigen::Vector3f& p = point.position;
       const float grey = 0.3F + 0.7F * static_cast<float>(point.grey) / 255.0F;  // on a dark ground
-      points_->push_back(single(p.x()), single(p.y()), single(p.z()), grey, grey, grey);
+      points_->push_back(p.x(), p.y(), p.z(), grey, grey, grey);
     }
   }
 

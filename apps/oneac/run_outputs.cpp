@@ -14,7 +14,8 @@ namespace {
 void write_map(const DriveRecord& record, const std::filesystem::path& folder) {
   write_file_atomically(folder / "keyframes.tum", format_tum(record.keyframe_trajectory()));
   write_file_atomically(folder / "graph.g2o", format_g2o(record.keyframes));
-  write_file_atomically(folder / "points.ply", format_ply(record.keyframes));
+  write_file_atomically(folder / "points.ply",
+                        [&](std::ostream& out) { write_ply(record.keyframes, out); });
   write_file_atomically(folder / "map.simplemap",
                         format_simple_map(record.keyframes, record.mount(), record.camera));
 }

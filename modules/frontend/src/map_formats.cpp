@@ -3,19 +3,22 @@
 #include <array>
 #include <charconv>
 #include <cstddef>
+#include <ostream>
 
 namespace oneac {
 namespace {
 
 /// The shortest text that reads back as the same number, whatever the locale.
-void append(std::string& text, double value) {
+template <class Number>
+void append(std::string& text, Number value) {
   std::array<char, 32> digits{};
   const auto end = std::to_chars(digits.data(), digits.data() + digits.size(), value);
   text += ' ';
   text.append(digits.data(), end.ptr);
 }
 
-void append(std::string& text, const Eigen::Vector3d& v) {
+template <class Number>
+void append(std::string& text, const Eigen::Matrix<Number, 3, 1>& v) {
   for (int i = 0; i < 3; ++i) append(text, v(i));
 }
 
@@ -48,27 +51,24 @@ std::string format_g2o(const std::vector<Keyframe>& keyframes) {
   return text;
 }
 
-std::string format_ply(const std::vector<Keyframe>& keyframes) {
+void write_ply(const std::vector<Keyframe>& keyframes, std::ostream& out) {
   std::size_t count = 0;
   for (const Keyframe& keyframe : keyframes) count += keyframe.points.size();
-  std::string text = "ply\nformat ascii 1.0\nelement vertex " + std::to_string(count) + '\n';
+  out << "ply\nformat ascii 1.0\nelement vertex " + std::to_string(count) + '\n';
   for (const char* name : {"x", "y", "z", "nx", "ny", "nz"}) {
-    text += std::string("property float ") + name + '\n';
+    out << "property float " << name << '\n';
   }
-  for (const char* name : {"red", "green", "blue"}) {
-    text += std::string("property uchar ") + name + '\n';
-  }
-  text += "end_header\n";
+  for (const char* name : {"red", "green", "blue"}) out << "property uchar " << name << '\n';
+  out << "end_header\n";
   for (const Keyframe& keyframe : keyframes) {
     for (const MapPoint& point : keyframe.points) {
       std::string line;
       append(line, point.position);
       append(line, point.normal);
       const std::string grey = ' ' + std::to_string(point.grey);
-      text += line.substr(1) + grey + grey + grey + '\n';
+      out << line.substr(1) << grey << grey << grey << '\n';
     }
   }
-  return text;
 }
 
 }  // namespace oneac

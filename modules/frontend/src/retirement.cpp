@@ -19,6 +19,7 @@ bool is_located(const Track& track) {
 std::vector<MapPoint> LocalMap::retire_oldest() {
   std::vector<MapPoint> points;
   forget_sightings(window_.front().id, points);
+  points.shrink_to_fit();  // they stay for the rest of the drive
   window_.pop_front();
   return points;
 }
@@ -67,14 +68,14 @@ MapPoint LocalMap::point_of(const Track& track) const {
   const RelativePose T_map_cam = keyframe(track.anchor).T_cam_map.inverse();
   MapPoint point;
   const double rho = track.inverse_depth;
-  point.position = T_map_cam * (track.ray.homogeneous() / rho);
+  point.position = (T_map_cam * (track.ray.homogeneous() / rho)).cast<float>();
   point.grey = track.grey;
-  point.views = track.seen.size();
+  point.views = static_cast<std::uint16_t>(track.seen.size());
   if (track.has_gradient) {
     // The plane n·X = d of the patch, turned towards the camera.
     const Eigen::Vector3d m(track.gradient.x(), track.gradient.y(),
                             rho - track.gradient.dot(track.ray));
-    point.normal = -(T_map_cam.R * m.normalized());
+    point.normal = -(T_map_cam.R * m.normalized()).cast<float>();
   }
   return point;
 }

@@ -93,7 +93,7 @@ void Settling::settle_oldest(LocalMap& map, Settled& settled) {
   T_last_map_ = oldest.T_cam_map;
   last_segment_ = note.segment;
   keyframe.points = map.retire_oldest();
-  for (MapPoint& point : keyframe.points) point.position += offset_;
+  for (MapPoint& point : keyframe.points) point.position += offset_.cast<float>();
   settle_frames(oldest, settled);
   settled.keyframes.push_back(std::move(keyframe));
 }

@@ -20,7 +20,7 @@ std::vector<Keyframe> two_keyframes() {
   keyframes[1].T_first_cam.linear() = yaw_rotation(std::cos(-0.2), std::sin(-0.2));
   keyframes[1].information = 100.0 * Eigen::Matrix<double, 6, 6>::Identity();
   keyframes[1].information(0, 5) = keyframes[1].information(5, 0) = 7.0;
-  keyframes[1].points.push_back({{1.0, 2.0, 3.5}, {0.0, -1.0, 0.0}, 200, 4});
+  keyframes[1].points.push_back({{1.0F, 2.0F, 3.5F}, {0.0F, -1.0F, 0.0F}, 200, 4});
   return keyframes;
 }
 
@@ -48,7 +48,9 @@ TEST(MapFormats, G2oHoldsVerticesAndTheEdgeBetweenThem) {
 }
 
 TEST(MapFormats, PlyCountsItsPoints) {
-  const std::string text = format_ply(two_keyframes());
+  std::ostringstream out;
+  write_ply(two_keyframes(), out);
+  const std::string text = out.str();
   EXPECT_NE(text.find("element vertex 1\n"), std::string::npos);
   EXPECT_NE(text.find("end_header\n1 2 3.5 0 -1 0 200 200 200\n"), std::string::npos);
 }

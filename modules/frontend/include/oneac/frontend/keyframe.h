@@ -11,12 +11,13 @@
 
 namespace oneac {
 
-/// A landmark of the map, as it was when its last keyframe settled.
+/// A landmark of the map, as it was when its last keyframe settled. Single precision, since a long
+/// drive has millions: a millimetre at ten kilometres from the start.
 struct MapPoint {
-  Eigen::Vector3d position = Eigen::Vector3d::Zero();  ///< in the first camera's frame
-  Eigen::Vector3d normal = Eigen::Vector3d::Zero();    ///< unit, towards the camera; zero: unknown
+  Eigen::Vector3f position = Eigen::Vector3f::Zero();  ///< in the first camera's frame
+  Eigen::Vector3f normal = Eigen::Vector3f::Zero();    ///< unit, towards the camera; zero: unknown
   std::uint8_t grey = 0;                               ///< of the image where it was first seen
-  std::size_t views = 0;                               ///< keyframes that saw it
+  std::uint16_t views = 0;                             ///< keyframes that saw it
 };
 
 /// A keyframe that will not move any more, with its constraint to the one before.

@@ -5,6 +5,7 @@
 
 #include <Eigen/Geometry>
 
+#include <iosfwd>
 #include <string>
 #include <vector>
 
@@ -16,7 +17,8 @@ namespace oneac {
 [[nodiscard]] std::string format_g2o(const std::vector<Keyframe>& keyframes);
 
 /// The landmarks as an ASCII PLY: position, normal (zero where unknown), grey as red, green, blue.
-[[nodiscard]] std::string format_ply(const std::vector<Keyframe>& keyframes);
+/// Written piece by piece: the text of a long drive is larger than all else that is in memory.
+void write_ply(const std::vector<Keyframe>& keyframes, std::ostream& out);
 
 /// Bytes of an mrpt::maps::CSimpleMap, as its loadFromFile() reads them: per keyframe the vehicle's
 /// pose with the covariance that the edges add up to, and an image observation with the camera's
