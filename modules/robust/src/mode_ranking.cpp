@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 
 namespace oneac::internal {
 namespace {
@@ -37,6 +38,13 @@ constexpr double kMetRotationDeg = 0.05;
 constexpr double kMetDirectionDeg = 1.0;
 // Steps of the first passes need not be finer than the last pass [rad].
 constexpr double kCoarseStep = 1e-5;
+// Share of the settled cost below which other modes need not be looked at. A wrong motion costs
+// less the smaller the image is in pixels: by (1/2)² at half the size, from 0.345 (KITTI) to below
+// 1/4.
+constexpr double kNoDoubt = 0.25;
+// Motions farther apart than either are in different basins: what counts as a wrong one.
+constexpr double kBasinRotationDeg = 1.0;
+constexpr double kBasinDirectionDeg = 15.0;
 // A motion settles the matter when the points shift by so many bounds beside its rotation (median):
 // below, a wrong direction of travel leaves them within the bound as well.
 constexpr double kClearShift = 3.0;
@@ -94,8 +102,8 @@ class Look {
   /// Whether a motion explains the points so well that no other can. Residuals spread evenly
   /// within the bound, of a motion that says nothing, cost 1/3 a point, and the right motion at
   /// most 1/4 where the bound is no less than two sigma of the noise.
-  [[nodiscard]] bool settled(const Candidate& c, const PointSet& points) const {
-    return c.cost < p_.options.settled_cost * static_cast<double>(points.size());
+  [[nodiscard]] bool settled(const Candidate& c, const PointSet& points, double share = 1.0) const {
+    return c.cost < share * p_.options.settled_cost * static_cast<double>(points.size());
   }
 
   /// The distinct hypotheses, best first.
@@ -107,19 +115,25 @@ class Look {
                     count);
   }
 
-  /// Polishes modes widely on the sample. @param until_settled  stop after the first that settles
-  void polish_on_sample(std::vector<Candidate>& modes, bool until_settled) {
-    const double wide = kWideLoss * p_.threshold;
-    std::size_t done = 0;
-    for (bool go_on = true; go_on && done < modes.size(); ++done) {
-      Candidate& c = modes[done];
-      c.pose = polish_coarsely(c.pose, sample_, {wide, kWideIterations, kCoarseStep}).pose;
-      c.cost = cost_of(c.pose, sample_, p_.threshold);
-      go_on = !(until_settled && settled(c, sample_));
-    }
-    modes.resize(done);
-    statistics_.local_optimisations += done;
+  /// Polishes all modes widely on the sample.
+  void polish_all_on_sample(std::vector<Candidate>& modes) {
+    for (Candidate& c : modes) polish_on_sample(c);
     sort_by_cost(modes);
+  }
+
+  /// The best of the modes polished on the sample, looking no further than there is doubt: not
+  /// behind a mode that leaves none, and not at modes in the basin of one that settles.
+  std::optional<Candidate> best_on_sample(const std::vector<Candidate>& modes) {
+    const Closeness one_basin(kBasinRotationDeg, kBasinDirectionDeg);
+    std::optional<Candidate> best;
+    for (const Candidate& mode : modes) {
+      if (best && settled(*best, sample_, kNoDoubt)) break;
+      if (best && settled(*best, sample_) && one_basin.same(best->pose, mode.pose)) continue;
+      Candidate polished = mode;
+      polish_on_sample(polished);
+      if (!best || polished.cost < best->cost) best = polished;
+    }
+    return best;
   }
 
   /// The best modes polished on all points. Modes of one basin have met by now.
@@ -135,6 +149,13 @@ class Look {
   }
 
  private:
+  void polish_on_sample(Candidate& c) {
+    const double wide = kWideLoss * p_.threshold;
+    c.pose = polish_coarsely(c.pose, sample_, {wide, kWideIterations, kCoarseStep}).pose;
+    c.cost = cost_of(c.pose, sample_, p_.threshold);
+    ++statistics_.local_optimisations;
+  }
+
   const ConsensusProblem& p_;
   PointSet sample_;
   RobustStatistics& statistics_;
@@ -143,13 +164,12 @@ class Look {
 /// At most one mode, polished on all points; empty when it does not settle the matter.
 std::vector<Candidate> first_look(const ConsensusProblem& p, RobustStatistics& statistics) {
   Look look(p, kFirstSample, statistics);
-  std::vector<Candidate> modes =
+  const std::vector<Candidate> modes =
       look.modes(search_level_poses(p.acs, p.R_level_cam, p.threshold, kFirstShortList, p.options),
                  p.options.first_modes);
-  look.polish_on_sample(modes, true);
-  if (modes.empty()) return {};
-  modes.resize(1);
-  std::vector<Candidate> best = look.finalists(modes);
+  const std::optional<Candidate> favourite = look.best_on_sample(modes);
+  if (!favourite) return {};
+  std::vector<Candidate> best = look.finalists({*favourite});
   const double shift = median_transfer_error(best.front().pose.R, p.acs, kFirstSample);
   const bool stands = look.settled(best.front(), p.points) && shift > kClearShift * p.threshold;
   return stands ? best : std::vector<Candidate>{};
@@ -165,7 +185,7 @@ std::vector<Candidate> ranked_modes(const ConsensusProblem& p, RobustStatistics&
   Look look(p, kSample, statistics);
   std::vector<Candidate> modes = look.modes(
       search_poses(p.acs, p.R_level_cam, p.threshold, kShortList, p.options), p.options.modes);
-  look.polish_on_sample(modes, false);
+  look.polish_all_on_sample(modes);
   return look.finalists(modes);
 }
 
