@@ -148,7 +148,7 @@ TEST_F(ImportMalaga, PositionsAreInDegreesAndZeroVelocitiesAreNone) {
   const auto& gga = gps[0]->getMsgByClass<Message_NMEA_GGA>().fields;
   EXPECT_NEAR(gga.latitude_degrees, 36.7242, 1e-4);
   EXPECT_NEAR(gga.longitude_degrees, -4.4762, 1e-4);
-  EXPECT_EQ(gga.altitude_meters, 77.9);
+  EXPECT_EQ(test::copied(gga.altitude_meters), 77.9);
   EXPECT_FALSE(gps[0]->hasMsgClass<Message_NMEA_RMC>());
 }
 

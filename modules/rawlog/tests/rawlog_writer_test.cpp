@@ -19,6 +19,7 @@ namespace oneac {
 namespace {
 
 using namespace mrpt::obs;
+using test::copied;
 using test::only;
 using test::read_with_mrpt;
 
@@ -132,14 +133,14 @@ TEST_F(RawlogWriterTest, WritesGpsAsTwoObservationsUnderOneLabel) {
   EXPECT_EQ(gps[1]->sensorLabel, "GPS");
   EXPECT_EQ(gps[0]->timestamp, gps[1]->timestamp);
   const auto& gga = gps[0]->getMsgByClass<gnss::Message_NMEA_GGA>().fields;
-  EXPECT_EQ(gga.latitude_degrees, 36.7242);
-  EXPECT_EQ(gga.longitude_degrees, -4.4762);
-  EXPECT_EQ(gga.altitude_meters, 77.9);
-  EXPECT_EQ(gga.satellitesUsed, 9U);
+  EXPECT_EQ(copied(gga.latitude_degrees), 36.7242);
+  EXPECT_EQ(copied(gga.longitude_degrees), -4.4762);
+  EXPECT_EQ(copied(gga.altitude_meters), 77.9);
+  EXPECT_EQ(copied(gga.satellitesUsed), 9U);
   const auto& rmc = gps[1]->getMsgByClass<gnss::Message_NMEA_RMC>().fields;
   EXPECT_NEAR(rmc.speed_knots, 19.4384, 1e-4);
-  EXPECT_EQ(rmc.direction_degrees, 145.2);
-  EXPECT_EQ(rmc.validity_char, 'A');
+  EXPECT_EQ(copied(rmc.direction_degrees), 145.2);
+  EXPECT_EQ(copied(rmc.validity_char), 'A');
 }
 
 TEST_F(RawlogWriterTest, GpsCarriesTheUtcTimeAndDateOfItsStamp) {
@@ -149,12 +150,12 @@ TEST_F(RawlogWriterTest, GpsCarriesTheUtcTimeAndDateOfItsStamp) {
   const auto gps = only<CObservationGPS>(written(record));
   ASSERT_EQ(gps.size(), 2U);
   const auto& rmc = gps[1]->getMsgByClass<gnss::Message_NMEA_RMC>().fields;
-  EXPECT_EQ(rmc.UTCTime.hour, 13);
-  EXPECT_EQ(rmc.UTCTime.minute, 39);
+  EXPECT_EQ(copied(rmc.UTCTime.hour), 13);
+  EXPECT_EQ(copied(rmc.UTCTime.minute), 39);
   EXPECT_NEAR(rmc.UTCTime.sec, 41.580023, 1e-6);
-  EXPECT_EQ(rmc.date_day, 19);
-  EXPECT_EQ(rmc.date_month, 12);
-  EXPECT_EQ(rmc.date_year, 9);
+  EXPECT_EQ(copied(rmc.date_day), 19);
+  EXPECT_EQ(copied(rmc.date_month), 12);
+  EXPECT_EQ(copied(rmc.date_year), 9);
 }
 
 TEST_F(RawlogWriterTest, WithoutVelocityThereIsNoRmc) {

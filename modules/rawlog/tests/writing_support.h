@@ -24,6 +24,13 @@ std::vector<std::shared_ptr<Observation>> only(
   return chosen;
 }
 
+/// The value of a field of MRPT's packed messages, to which no reference may be bound: it may lie
+/// at any address.
+template <class Value>
+Value copied(Value field) {
+  return field;
+}
+
 /// What MRPT's own `rawlog-edit --info` (Debian package mrpt-apps) says about a log: a judge that
 /// this project did not write. Fails the test when the program is missing or fails.
 std::string rawlog_edit_info(const std::filesystem::path& log);
