@@ -1,5 +1,7 @@
 #include "guarded_stream.h"
 
+#include <mrpt/rtti/CObject.h>
+
 #include <algorithm>
 #include <cstring>
 #include <stdexcept>
@@ -31,6 +33,12 @@ std::uint32_t word_of(const std::uint8_t* bytes) {
 // Four letters, as a string of that length has them. UTF-8 has no byte from 0xf8 on.
 bool is_text(const std::uint8_t* bytes) {
   return std::all_of(bytes, bytes + kWord, [](std::uint8_t b) { return b >= ' ' && b < 0xf8; });
+}
+
+// MRPT knows the class, but no object of it can be made.
+bool is_abstract(const std::string& class_name) {
+  const mrpt::rtti::TRuntimeClassId* known = mrpt::rtti::findRegisteredClass(class_name);
+  return known != nullptr && !known->ptrCreateObject;
 }
 
 }  // namespace
@@ -113,6 +121,8 @@ void GuardedStream::follow_object(std::uint8_t* buffer, size_t count) {
 }
 
 GuardedStream::Expected GuardedStream::after_class(const std::string& name) const {
+  if (is_abstract(name))
+    throw std::runtime_error("it is a " + name + ", which is no class of objects");
   const auto colon = name.rfind(':');  // newer versions store mrpt::img::CImage
   const std::string bare = colon == std::string::npos ? name : name.substr(colon + 1);
   if (bare == "CImage") return Expected::image_version;

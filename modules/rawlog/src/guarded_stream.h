@@ -22,6 +22,7 @@ namespace oneac {
 /// - A matrix may not be larger than the rest of the file.
 /// - Images are taken out: MRPT reads an external image whose name is a number, see
 ///   take_images().
+/// - An object of an abstract class ends in an exception: MRPT prints a line of its own about it.
 /// - Objects nested deeper than kDeepestStack bytes of stack end in an exception.
 class GuardedStream : public mrpt::io::CStream {
  public:

@@ -69,6 +69,19 @@ TEST_F(Guarded, ALengthBeyondTheFileTakesNoMemory) {
   EXPECT_LT(peak_mb(), before + 50U);
 }
 
+// One wrong byte makes a CObservationGPS one: MRPT says so on stderr, beside our one line.
+TEST_F(Guarded, AnAbstractClassEndsTheLogInSilence) {
+  std::string bytes = test::packed({test::rmc(0, 1, 1), test::rmc(1, 1, 1)});
+  const std::string whole_name = "CObservationGPS";
+  const std::string abstract_name = "CObservation";
+  bytes[bytes.rfind(whole_name) - 1] = static_cast<char>(0x80U | abstract_name.size());
+  testing::internal::CaptureStderr();
+  const std::string damage = damage_of(bytes);
+  EXPECT_EQ(testing::internal::GetCapturedStderr(), "");
+  EXPECT_NE(damage.find("record 1"), std::string::npos) << damage;
+  EXPECT_EQ(observations_, 1U);
+}
+
 TEST_F(Guarded, AnImageBeyondTheFileTakesNoMemory) {
   const std::string whole =
       test::packed({test::rmc(0, 1, 1), test::stored_image("CAM", 0, test::ramp(0))});
