@@ -22,11 +22,13 @@
 #include <map>
 #include <stdexcept>
 #include <string>
+#include <utility>
 
 namespace oneac {
 namespace {
 
-constexpr unsigned kLongest_s = 10;
+constexpr unsigned kLongest_s = 10;           // of work: a busy or suspended machine is no hang
+constexpr unsigned kLongestWait_s = 10 * 60;  // without work
 constexpr std::size_t kMostMemory_mb = 1024;
 constexpr std::size_t kImages = 2;  // decoded per copy; the decoder has faults of its own
 
@@ -44,6 +46,7 @@ const char* name_of(int ending) {
       return "refused in one line (exit 2)";
     case kOtherException:
       return "THREW WHAT IT MAY NOT";
+    case 128 + SIGXCPU:
     case 128 + SIGALRM:
       return "HUNG";
     default:
@@ -136,12 +139,18 @@ struct Outcome {
   std::size_t peak_mb = 0;
 };
 
+void limit_time() {
+  const rlimit limit{kLongest_s, kLongest_s + 1};
+  ::setrlimit(RLIMIT_CPU, &limit);
+  ::alarm(kLongestWait_s);
+}
+
 Outcome read_copy(const Original& original, std::uint64_t seed, const std::filesystem::path& copy) {
   const std::string& bytes = seed % 2 == 0 ? original.as_it_is : original.plain;
   std::ofstream(copy, std::ios::binary) << mutated(bytes, seed);
   const pid_t child = ::fork();
   if (child == 0) {
-    ::alarm(kLongest_s);
+    limit_time();
     SourceOptions options = original.options;
     options.log = copy;
     ::_exit(ending_of(options, original.reading));
@@ -161,19 +170,20 @@ int run(const std::string& log, std::uint64_t count, std::uint64_t first) {
   const Original original = load_original(log);
   const TemporaryFolder folder;
   std::map<int, std::size_t> endings;
-  std::size_t peak_mb = 0;
+  std::pair<std::size_t, std::uint64_t> peak_mb{0, first};  // and the seed
   std::size_t unsound = 0;
   for (std::uint64_t seed = first; seed < first + count; ++seed) {
     const Outcome outcome = read_copy(original, seed, folder.path() / "copy.rawlog");
     ++endings[outcome.ending];
-    peak_mb = std::max(peak_mb, outcome.peak_mb);
+    peak_mb = std::max(peak_mb, {outcome.peak_mb, seed});
     if (is_sound(outcome)) continue;
     ++unsound;
     std::printf("seed %llu: ending %d, %zu MB\n", static_cast<unsigned long long>(seed),
                 outcome.ending, outcome.peak_mb);
   }
   for (const auto& [ending, n] : endings) std::printf("%7zu  %s\n", n, name_of(ending));
-  std::printf("%7zu  MB of memory at most\n", peak_mb);
+  std::printf("%7zu  MB of memory at most, seed %llu\n", peak_mb.first,
+              static_cast<unsigned long long>(peak_mb.second));
   return unsound == 0 ? 0 : 1;
 }
 
