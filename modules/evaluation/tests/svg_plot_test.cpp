@@ -4,8 +4,9 @@
 
 #include <algorithm>
 #include <limits>
-#include <regex>
+#include <sstream>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace oneac {
@@ -21,15 +22,16 @@ std::size_t count(const std::string& text, const std::string& what) {
 
 /// Places of the points of the first line of a colour.
 std::vector<std::pair<double, double>> points_of(const std::string& svg, const std::string& style) {
-  const std::regex line("class=\"curve " + style + "\" points=\"([^\"]*)\"");
-  std::smatch found;
+  const std::string before = "class=\"curve " + style + "\" points=\"";
   std::vector<std::pair<double, double>> points;
-  if (!std::regex_search(svg, found, line)) return points;
-  const std::string text = found[1];
-  const std::regex pair("([-0-9.]+),([-0-9.]+)");
-  for (std::sregex_iterator i(text.begin(), text.end(), pair), end; i != end; ++i) {
-    points.emplace_back(std::stod((*i)[1]), std::stod((*i)[2]));
-  }
+  const auto found = svg.find(before);  // a long line takes std::regex more stack than there is
+  if (found == std::string::npos) return points;
+  const auto begin = found + before.size();
+  std::istringstream text(svg.substr(begin, svg.find('"', begin) - begin));
+  double u = 0.0;
+  double v = 0.0;
+  char comma = ' ';
+  while (text >> u >> comma >> v) points.emplace_back(u, v);
   return points;
 }
 
