@@ -43,7 +43,7 @@ void write_all(const DriveRecord& record, RunOptions& options, double wall_secon
   write_file_atomically(folder / "report.html", report_html(record, evaluation, options, summary));
   std::cout << summary_text(record, evaluation) << "written to " << options.output
             << ": trajectory_camera.kitti, trajectory_camera.tum, trajectory_vehicle.tum, "
-               "relative_poses.csv, timings.csv, summary.json, report.html, params.yaml"
+               "relative_poses.csv, tilt.csv, timings.csv, summary.json, report.html, params.yaml"
             << (record.keyframes.empty()
                     ? "\n"
                     : ", keyframes.tum, graph.g2o, map.simplemap, points.ply\n");

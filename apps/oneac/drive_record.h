@@ -19,7 +19,6 @@ struct DriveRecord {
   std::vector<FrameResult> frames;
   std::vector<Keyframe> keyframes;  ///< settled ones, in order
   std::vector<double> decode_ms;    ///< one per frame
-  std::vector<Tilt> tilts;          ///< as believed after each frame
   Eigen::Isometry3d T_vehicle_cam = CameraFrame::forward_looking_mount();  ///< as the log says
   PinholeCamera camera;
   Tilt given_tilt;                 ///< from the log or the parameters

@@ -147,16 +147,17 @@ SeriesPlot scale_plot(const DriveRecord& record, const ReferenceTrack& track) {
 
 SeriesPlot tilt_plot(const DriveRecord& record) {
   SeriesPlot plot{"Tilt of the camera, as believed", "time [s]", "deg", {}, false};
-  const auto add = [&](const char* label, double Tilt::*angle) {
+  const auto add = [&](const char* label, auto&& angle) {
     PlotSeries series{label, {}, {}, false};
-    for (std::size_t i = 0; i < record.tilts.size(); ++i) {
-      series.x.push_back(seconds(record, record.frames[i].time_s));
-      series.y.push_back(record.tilts[i].*angle / kDegree);
+    for (const FrameResult& frame : record.frames) {
+      series.x.push_back(seconds(record, frame.time_s));
+      series.y.push_back(angle(frame) / kDegree);
     }
     plot.series.push_back(std::move(series));
   };
-  add("axis above the horizon", &Tilt::pitch_up);
-  add("leaning right", &Tilt::roll_right);
+  add("axis above the horizon", [](const FrameResult& f) { return f.tilt.tilt.pitch_up; });
+  add("leaning right", [](const FrameResult& f) { return f.tilt.tilt.roll_right; });
+  add("pitch of the springs", [](const FrameResult& f) { return f.suspension.angle; });
   return plot;
 }
 

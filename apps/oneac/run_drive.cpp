@@ -111,7 +111,6 @@ DriveRecord run_drive(const RunOptions& options, const RunObserver& observer) {
       record.decode_ms.push_back(prepared.decode_ms);
       if (record.frames.size() == 1) remember_first(first, front_end, record);
       record.tilt = front_end.tilt();
-      record.tilts.push_back(record.tilt);
       if (observer) observer({image, front_end.correspondences(), record});
       progress.update(source.progress(), record.frames.size());
       return !interrupted();

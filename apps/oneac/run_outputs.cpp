@@ -5,11 +5,39 @@
 #include "oneac/frontend/map_formats.h"
 
 #include <algorithm>
+#include <charconv>
 #include <stdexcept>
 
 namespace oneac::app {
 
 namespace {
+
+constexpr double kDegree = 3.14159265358979323846 / 180.0;
+constexpr int kTimeDecimals = 6, kAngleDecimals = 4;
+
+/// C locale.
+std::string fixed_text(double value, int decimals) {
+  char text[40];
+  const auto end =
+      std::to_chars(text, text + sizeof text, value, std::chars_format::fixed, decimals).ptr;
+  return {text, end};
+}
+
+std::string format_tilts(const std::vector<FrameResult>& frames) {
+  std::string text =
+      "index,time,pitch_up_deg,pitch_sigma_deg,roll_right_deg,roll_sigma_deg,"
+      "suspension_pitch_deg,suspension_sigma_deg\n";
+  for (const FrameResult& frame : frames) {
+    text += std::to_string(frame.index) + ',' + fixed_text(frame.time_s, kTimeDecimals);
+    const TiltBelief& tilt = frame.tilt;
+    for (const double angle : {tilt.tilt.pitch_up, tilt.pitch_sigma, tilt.tilt.roll_right,
+                               tilt.roll_sigma, frame.suspension.angle, frame.suspension.sigma}) {
+      text += ',' + fixed_text(angle / kDegree, kAngleDecimals);
+    }
+    text += '\n';
+  }
+  return text;
+}
 
 void write_map(const DriveRecord& record, const std::filesystem::path& folder) {
   write_file_atomically(folder / "keyframes.tum", format_tum(record.keyframe_trajectory()));
@@ -29,6 +57,7 @@ void write_drive(const DriveRecord& record, const std::filesystem::path& folder)
   write_file_atomically(folder / "trajectory_vehicle.tum", format_tum(record.vehicle_trajectory()));
   write_file_atomically(folder / "relative_poses.csv",
                         format_relative_poses(record.relative_poses()));
+  write_file_atomically(folder / "tilt.csv", format_tilts(record.frames));
   if (!record.keyframes.empty()) write_map(record, folder);
   write_file_atomically(folder / "timings.csv", format_timings(record.timings()));
 }

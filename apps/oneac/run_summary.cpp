@@ -125,6 +125,22 @@ Json tilt_json(const Tilt& tilt) {
   return {{"pitch_up_deg", tilt.pitch_up / kDegree}, {"roll_right_deg", tilt.roll_right / kDegree}};
 }
 
+/// What the springs did in frames that the images told about.
+Json suspension_json(const DriveRecord& record) {
+  std::vector<double> pitch_deg, sigma_deg;
+  for (const FrameResult& frame : record.frames) {
+    if (!frame.step || frame.step->status == StepStatus::kPredicted) continue;
+    pitch_deg.push_back(std::abs(frame.suspension.angle) / kDegree);
+    sigma_deg.push_back(frame.suspension.sigma / kDegree);
+  }
+  if (pitch_deg.empty()) return nullptr;
+  const Statistics pitch = *statistics_of(pitch_deg);
+  return {{"used_for", "initialiser and road"},
+          {"rms_deg", pitch.rmse},
+          {"largest_deg", pitch.max},
+          {"sigma_median_deg", statistics_of(sigma_deg)->median}};
+}
+
 Json camera_json(const DriveRecord& record) {
   const PinholeCamera& c = record.camera;
   return {
@@ -136,7 +152,8 @@ Json camera_json(const DriveRecord& record) {
       {"cy_px", c.cy},
       {"tilt_given", tilt_json(record.given_tilt)},
       {"tilt_used_last", tilt_json(record.tilt)},
-      {"tilt_sigma", tilt_json({record.tilt_belief.pitch_sigma, record.tilt_belief.roll_sigma})}};
+      {"tilt_sigma", tilt_json({record.tilt_belief.pitch_sigma, record.tilt_belief.roll_sigma})},
+      {"suspension_pitch", suspension_json(record)}};
 }
 
 Json gps_json(const GpsComparison& gps) {

@@ -156,7 +156,7 @@ TEST_F(Kitti03, MeetsItsBoundsOnConsecutiveFrames) {
   EXPECT_LE(pairs.rotation->mean, 0.038 * kDegree);
   EXPECT_LE(pairs.direction->mean, 0.85 * kDegree);
   EXPECT_GE(static_cast<double>(pairs.metric), 0.9 * static_cast<double>(pairs.moving));
-  EXPECT_LE(pairs.length->median, 0.05);
+  EXPECT_LE(pairs.length->median, 0.03);
   const TrajectoryErrors& trajectory = *evaluation.trajectory;
   ASSERT_TRUE(trajectory.subsequences && trajectory.scale_error);
   EXPECT_LE(trajectory.subsequences->translation, 0.02);

@@ -9,9 +9,13 @@
 #include <nlohmann/json.hpp>
 
 #include <cmath>
+#include <cstdio>
 #include <fstream>
 #include <iterator>
 #include <memory>
+#include <optional>
+#include <string>
+#include <vector>
 
 namespace oneac {
 namespace {
@@ -73,6 +77,38 @@ TEST_F(SimulatedDrive, TheStopIsAStop) {
     EXPECT_EQ(rows_[i].T_2_1.t.norm(), 0.0);
   }
   EXPECT_GE(standing, 20U);
+}
+
+/// [deg] pitch against the path of a second on each side; empty where the car hardly moved.
+std::optional<double> pitch_on_path(const std::vector<Eigen::Isometry3d>& poses, std::size_t i) {
+  constexpr std::size_t kSecond = 10;
+  if (i < kSecond || i + kSecond >= poses.size()) return std::nullopt;
+  const Eigen::Vector3d way = poses[i + kSecond].translation() - poses[i - kSecond].translation();
+  if (way.norm() < 2.0) return std::nullopt;
+  const Eigen::Vector3d along = poses[i].linear().transpose() * way;
+  return std::atan2(along.y(), std::hypot(along.x(), along.z())) / kDegree;
+}
+
+TEST_F(SimulatedDrive, TellsThePitchOfTheSprings) {
+  const std::string folder = folder_->path().string();
+  const auto truth = read_kitti(folder + "/drive/poses.txt").poses;
+  std::ifstream file(folder + "/out/tilt.csv");
+  std::string line;
+  std::getline(file, line);
+  double squares = 0.0, squares_of_slow = 0.0;
+  std::size_t frames = 0;
+  for (std::size_t i = 0; std::getline(file, line); ++i) {
+    double slow = 0.0, springs = 0.0;
+    ASSERT_EQ(std::sscanf(line.c_str(), "%*u,%*f,%lf,%*f,%*f,%*f,%lf", &slow, &springs), 2) << line;
+    const auto pitch = pitch_on_path(truth, i);
+    if (!pitch) continue;
+    squares += std::pow(slow + springs - *pitch, 2);
+    squares_of_slow += std::pow(slow - *pitch, 2);
+    ++frames;
+  }
+  ASSERT_GT(frames, 100U);
+  EXPECT_LT(std::sqrt(squares / static_cast<double>(frames)), 0.15);
+  EXPECT_LT(squares, 0.4 * squares_of_slow);
 }
 
 TEST_F(SimulatedDrive, TheTrajectoryStaysOnTheRoad) {

@@ -37,6 +37,7 @@ Odometry::Odometry(const FrontEndOptions& options, RelativePoseInitialiser::Ptr 
 FrameResult Odometry::start(const CameraFrame& frame) {
   R_vehicle_cam_ = frame.T_vehicle_cam.linear();
   tilt_.emplace(given_tilt(), options_.tilt);
+  pitch_.emplace(mounting_pitch());
   const bool by_height = options_.scale.source == "height";
   camera_height_ = by_height ? options_.camera_height : 0.0;
   const double mount_height = by_height ? frame.T_vehicle_cam.translation().z() : 0.0;
@@ -52,6 +53,7 @@ FrameResult Odometry::start(const CameraFrame& frame) {
     settling_.add_frame(0, *result.keyframe, {});
     keyframe_time_ = frame.time_s;
   }
+  tell_tilt(result);
   speeds_.restart(frame.time_s);
   frames_ = 1;
   previous_ = frame;
@@ -81,6 +83,7 @@ FrameResult Odometry::advance(const CameraFrame& frame, const StepTracks& tracks
   }
   step.segment = segment_;
   result.step = step;
+  tell_tilt(result);
   result.T_first_cam = camera_in_first(T_cam_map_);
   result.T_first_cam.translation() += settling_.offset();
   previous_ = frame;
@@ -97,7 +100,7 @@ Odometry::TwoView Odometry::estimate(const StepTracks& tracks, double focal_px,
     stands.inlier_count = tracks.acs.size();
     return stands;
   }
-  const InitialiserInput input{tracks.acs, tilt_->leveling(), focal_px, options_.seed + frames_};
+  const InitialiserInput input{tracks.acs, leveling(), focal_px, options_.seed + frames_};
   InitialiserResult found;
   {
     const StageTimer timer(step.estimate_ms);
@@ -187,7 +190,7 @@ void Odometry::move(const StepResult& step) {
   T_cam_map_ = orthonormalised(motion * T_cam_map_);
   last_motion_ = motion;
   speeds_.add_step(step.time2, step.length);
-  if (step.status == StepStatus::kOk) tilt_->add_step(step.pose);
+  follow_tilt(step);
   const double seconds = step.time2 - step.time1;
   if (step.metric && seconds > 0.0) {
     last_metric_speed_ = step.length / seconds;

@@ -9,13 +9,10 @@
 namespace oneac {
 namespace {
 
-constexpr double kDegree = 3.14159265358979323846 / 180.0;
 // [-] share of the inlier bound taken as 1σ of a point's position.
 constexpr double kSigmaOfThreshold = 0.5;
 // [m] first step of a car that moves off, for want of better; the road corrects it.
 constexpr double kFirstStep = 0.05;
-// [rad] 1σ of a vehicle against the horizon, over the minutes of a drive.
-constexpr double kLevelVehicle = 1.0 * kDegree;
 
 }  // namespace
 
@@ -23,8 +20,8 @@ void Odometry::measure_pair(const StepTracks& tracks, const TwoView& found, doub
                             StepResult& step) {
   if (!(camera_height_ > 0.0)) return;
   const double sigma = kSigmaOfThreshold * options_.consensus.threshold_px / focal_px;
-  const auto scale = ground_scale(tracks.acs, found.inliers, step.pose, tilt_->leveling(), sigma,
-                                  options_.ground_scale);
+  const auto scale =
+      ground_scale(tracks.acs, found.inliers, step.pose, leveling(), sigma, ground_scale_options());
   if (!scale) return;
   step.length = scale->baseline * camera_height_;
   step.length_sigma = scale->uncertainty;
@@ -55,7 +52,7 @@ std::optional<ScaleMeasurement> Odometry::measure_by_road(double focal_px, StepR
   if (!(pair.T_2_1.t.norm() > 0.0)) return std::nullopt;
   const double sigma = kSigmaOfThreshold * options_.consensus.threshold_px / focal_px;
   const auto road = ground_scale(pair.acs, std::vector<bool>(pair.acs.size(), true), pair.T_2_1,
-                                 tilt_->leveling(), sigma, options_.ground_scale);
+                                 leveling_before(pair.T_2_1), sigma, ground_scale_options());
   if (!road) return std::nullopt;
   step.ground_acs = road->support;
   const double ratio = road->baseline * camera_height_ / pair.T_2_1.t.norm();
@@ -67,30 +64,8 @@ std::optional<ScaleMeasurement> Odometry::measure_by_speed() {
   return over_an_epoch || scale_.is_metric() ? over_an_epoch : speeds_.first_guess();
 }
 
-void Odometry::add_inertial(const InertialReading& reading) {
-  gravity_.add(reading);
-  if (tilt_ && options_.tilt.source == "imu") tilt_->set_given(given_tilt());
-}
-
 void Odometry::add_speed(double time_s, double speed_mps) {
   speeds_.add_speed(time_s, speed_mps);
-}
-
-Tilt Odometry::given_tilt() const {
-  const std::string& source = options_.tilt.source;
-  if (source == "params") {
-    return {options_.tilt.pitch_up_deg * kDegree, options_.tilt.roll_right_deg * kDegree};
-  }
-  if (source == "drive") return {};
-  const Tilt log = tilt_from_mounting(R_vehicle_cam_);
-  const auto up = gravity_.up();
-  if (source != "imu" || !up) return log;
-  // Weighed against the mounting on a level vehicle, which slopes and load make a degree uncertain.
-  const Tilt felt = tilt_from_gravity(R_vehicle_cam_, *up);
-  const double off = gravity_.sigma() / kLevelVehicle;
-  const double trust = 1.0 / (1.0 + off * off);
-  return {log.pitch_up + trust * (felt.pitch_up - log.pitch_up),
-          log.roll_right + trust * (felt.roll_right - log.roll_right)};
 }
 
 void Odometry::rescale(double factor) {

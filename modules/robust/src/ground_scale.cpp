@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <stdexcept>
 #include <string>
 
@@ -18,6 +19,10 @@ constexpr int kPlaneIterations = 10;  // IRLS; the weights settle after four to 
 // Smallest height of the camera above a ground point [baselines]: a step of more than 20 camera
 // heights, 30 m from one frame to the next, is not driving.
 constexpr double kSmallestHeight = 0.05;
+
+double squared(double value) {
+  return value * value;
+}
 
 /// A correspondence that may lie on the ground, in the levelled first frame, unit: baselines.
 struct Candidate {
@@ -86,7 +91,8 @@ double heaviest_height(const std::vector<Candidate>& candidates, double bandwidt
 /// Y = d + a X + b Z in the levelled frame.
 struct RoadPlane {
   double d = 0.0, a = 0.0, b = 0.0;
-  double sigma_d = 0.0;  ///< 1σ of d
+  Eigen::Vector3d variances = Eigen::Vector3d::Zero();  ///< of d, a, b by the assumed noise
+  double variance_factor = 1.0;                         ///< how much more the residuals scatter
   std::size_t support = 0;
 
   [[nodiscard]] double height_at(const Eigen::Vector3d& X) const {
@@ -98,10 +104,12 @@ struct RoadPlane {
 /// Iteratively reweighted least squares with a Geman–McClure weight at 2.5 bandwidths.
 RoadPlane fit_plane(const std::vector<Candidate>& candidates, double height,
                     const GroundScaleOptions& options) {
-  RoadPlane plane{height, 0.0, 0.0, height, 0};
-  const double slope_information = 1.0 / std::pow(options.plane_tilt_deg * kDegree, 2);
+  RoadPlane plane;
+  plane.d = height;
+  const Eigen::Vector3d prior(0.0, 1.0 / squared(options.cross_fall_deg * kDegree),
+                              1.0 / squared(options.plane_tilt_deg * kDegree));
   for (int iteration = 0; iteration < kPlaneIterations; ++iteration) {
-    Eigen::Matrix3d H = Eigen::Vector3d(0.0, slope_information, slope_information).asDiagonal();
+    Eigen::Matrix3d H = prior.asDiagonal();
     Eigen::Vector3d g = Eigen::Vector3d::Zero();
     double chi2 = 0.0;
     double weights = 0.0;
@@ -125,10 +133,18 @@ RoadPlane fit_plane(const std::vector<Candidate>& candidates, double height,
     plane.d = solution(0);
     plane.a = solution(1);
     plane.b = solution(2);
-    const double variance_factor = weights > 0.0 ? std::max(chi2 / weights, 0.1) : 1.0;
-    plane.sigma_d = std::sqrt(factor.solve(Eigen::Vector3d::UnitX()).x() * variance_factor);
+    plane.variance_factor = weights > 0.0 ? std::max(chi2 / weights, 0.1) : 1.0;
+    plane.variances = factor.solve(Eigen::Matrix3d::Identity()).diagonal();
   }
   return plane;
+}
+
+/// What the points say of one of the plane's slopes, without the prior that helped to fit it.
+RoadSlope measured_slope(double value, double variance, double prior_deg, double factor) {
+  const double information = 1.0 / variance;
+  const double measured = information - 1.0 / squared(prior_deg * kDegree);
+  if (!(measured > 0.0)) return {0.0, std::numeric_limits<double>::infinity()};
+  return {std::atan(value * information / measured), std::sqrt(factor / measured)};
 }
 
 }  // namespace
@@ -146,6 +162,7 @@ void GroundScaleOptions::validate() const {
   require(min_support >= 1, "min_support", min_support, "at least 1");
   require(max_uncertainty > 0.0, "max_uncertainty", max_uncertainty, "positive");
   require(plane_tilt_deg > 0.0, "plane_tilt_deg", plane_tilt_deg, "positive");
+  require(cross_fall_deg > 0.0, "cross_fall_deg", cross_fall_deg, "positive");
 }
 
 std::optional<GroundScale> ground_scale(AcSpan acs, const std::vector<bool>& inliers,
@@ -161,9 +178,12 @@ std::optional<GroundScale> ground_scale(AcSpan acs, const std::vector<bool>& inl
   if (plane.support < static_cast<std::size_t>(options.min_support)) return std::nullopt;
   const double distance = plane.distance();
   if (!(distance > kSmallestHeight) || !std::isfinite(distance)) return std::nullopt;
-  const double uncertainty = plane.sigma_d / plane.d;
+  const double uncertainty = std::sqrt(plane.variance_factor * plane.variances(0)) / plane.d;
   if (!(uncertainty < options.max_uncertainty)) return std::nullopt;
-  return GroundScale{T_2_1.t.norm() / distance, uncertainty, plane.support};
+  return GroundScale{
+      T_2_1.t.norm() / distance, uncertainty, plane.support,
+      measured_slope(plane.b, plane.variances(2), options.plane_tilt_deg, plane.variance_factor),
+      measured_slope(plane.a, plane.variances(1), options.cross_fall_deg, plane.variance_factor)};
 }
 
 }  // namespace oneac

@@ -72,6 +72,62 @@ TEST(GroundScale, WorksForATiltedCamera) {
   EXPECT_NEAR(scale->baseline / level_motion.t.norm(), 1.0, 0.02);
 }
 
+/// Of a level road seen by a camera with this tilt that is believed to be level.
+std::optional<GroundScale> seen_with(const Tilt& tilt, unsigned seed) {
+  SceneGenerator scene(seed);
+  const RelativePose level_motion = forward(0.8);
+  const Eigen::Matrix3d L = leveling_rotation(tilt);
+  auto acs = road_and_walls(scene, level_motion, 120, 0, 0.1 * kSigma);
+  for (auto& ac : acs) ac = *rotate_views(ac, L.transpose(), L.transpose());
+  return ground_scale(acs, std::vector<bool>(acs.size(), true),
+                      with_unit_length(unlevel(level_motion, L)), kLevel, kSigma, {});
+}
+
+TEST(GroundScale, TellsTheSlopeOfTheRoad) {
+  const auto up = seen_with({0.5 * kDegree, 0.0}, 35);
+  ASSERT_TRUE(up.has_value());
+  EXPECT_NEAR(up->ahead.angle, 0.5 * kDegree, 0.15 * kDegree);
+  EXPECT_NEAR(up->right.angle, 0.0, 0.15 * kDegree);
+  EXPECT_LT(up->ahead.sigma, 0.3 * kDegree);
+  const auto leaning_right = seen_with({0.0, 1.0 * kDegree}, 36);
+  ASSERT_TRUE(leaning_right.has_value());
+  EXPECT_NEAR(leaning_right->right.angle, -1.0 * kDegree, 0.2 * kDegree);
+}
+
+TEST(GroundScale, LeavesOutTheFootway) {
+  SceneGenerator scene(37);
+  const RelativePose T = forward(0.8);
+  const auto road = plane_induced_homography(T, {Eigen::Vector3d::UnitY(), 1.0});
+  const auto footway = plane_induced_homography(T, {Eigen::Vector3d::UnitY(), 0.92});
+  std::vector<AffineCorrespondence> acs;
+  while (acs.size() < 200) {
+    const Eigen::Vector2d x1 = scene.image_point(0.08, 0.4);
+    const bool beside = std::abs(x1.x() / x1.y()) > 2.2;  // in camera heights
+    acs.push_back(*correspondence_from_homography(beside ? footway : road, x1));
+  }
+  const auto scale = ground_scale(acs, std::vector<bool>(acs.size(), true), with_unit_length(T),
+                                  kLevel, kSigma, {});
+  ASSERT_TRUE(scale.has_value());
+  EXPECT_NEAR(scale->baseline / T.t.norm(), 1.0, 0.005);
+}
+
+/// One sees the road on one side only, e.g. beside parked cars.
+TEST(GroundScale, LetsTheRoadFallToTheSide) {
+  SceneGenerator scene(38);
+  const RelativePose T = forward(0.8);
+  const Eigen::Vector3d normal = Eigen::Vector3d(0.025, 1.0, 0.0).normalized();
+  const auto H = plane_induced_homography(T, {normal, 1.0});
+  std::vector<AffineCorrespondence> acs;
+  while (acs.size() < 20) {
+    const Eigen::Vector2d x1 = scene.image_point(0.1, 0.4);
+    if (x1.x() > 0.0) acs.push_back(*correspondence_from_homography(H, x1));
+  }
+  const auto scale = ground_scale(acs, std::vector<bool>(acs.size(), true), with_unit_length(T),
+                                  kLevel, kSigma, {});
+  ASSERT_TRUE(scale.has_value());
+  EXPECT_NEAR(scale->baseline / T.t.norm(), 1.0, 0.018);
+}
+
 TEST(GroundScale, SaysNothingWithoutRoad) {
   SceneGenerator scene(33);
   const RelativePose T = forward(0.8);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "oneac/frontend/keyframe.h"
+#include "oneac/frontend/tilt_belief.h"
 #include "oneac/geometry/relative_pose.h"
 
 #include <Eigen/Geometry>
@@ -44,7 +45,9 @@ struct FrameResult {
   /// Camera in the first camera's frame, as known now; `settled` of a later result has the final
   /// one.
   Eigen::Isometry3d T_first_cam = Eigen::Isometry3d::Identity();
-  std::optional<StepResult> step;       ///< none for the first frame
+  std::optional<StepResult> step;  ///< none for the first frame
+  TiltBelief tilt;         ///< of the camera on the vehicle, as believed now: changes slowly
+  AngleBelief suspension;  ///< [rad] pitch up that the springs add in this frame, against the road
   std::optional<std::size_t> keyframe;  ///< id, when this frame became a keyframe
   Settled settled;                      ///< what this frame made final
 };

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "oneac/frontend/front_end_options.h"
-#include "oneac/geometry/leveling.h"
+#include "oneac/frontend/tilt_belief.h"
 #include "oneac/geometry/relative_pose.h"
 
 #include <Eigen/Core>
@@ -9,13 +9,6 @@
 #include <deque>
 
 namespace oneac {
-
-/// Tilt with its uncertainty.
-struct TiltBelief {
-  Tilt tilt;
-  double pitch_sigma = 0.0;  ///< [rad] 1σ
-  double roll_sigma = 0.0;   ///< [rad] 1σ
-};
 
 /// The rotation that levels the camera: a given tilt, corrected by the drive.
 ///

@@ -12,12 +12,15 @@ namespace oneac {
 /// Length of a step from the road and the camera's height. validate() throws std::invalid_argument.
 struct GroundScaleOptions {
   double max_distance = 15.0;      ///< [camera heights] farther road has no parallax and few pixels
-  double max_side = 4.0;           ///< [camera heights] to either side: the lane and its neighbours
+  double max_side = 2.0;           ///< [camera heights] to either side: the lane and a metre or
+                                   ///< two; then come other cross falls, kerbs and footways
   double affine_tolerance = 0.25;  ///< [-] |A − A_ground| (Frobenius) of a ground correspondence
   double bandwidth = 0.05;         ///< [-] relative spread of heights that count as the same plane
   int min_support = 8;             ///< ground correspondences needed, and ...
   double max_uncertainty = 0.06;   ///< ... [-] relative 1σ of the length allowed for "metric"
-  double plane_tilt_deg = 0.7;     ///< [deg] 1σ of the road's slope against the levelled camera
+  double plane_tilt_deg = 0.3;     ///< [deg] 1σ of the road's slope ahead against the levelled
+                                   ///< camera: a slope that wanders by 1° in 100 m, over 10 m
+  double cross_fall_deg = 1.4;     ///< [deg] 1σ of its slope to the side: roads fall by 2.5 %
 
   void validate() const;
 };
@@ -31,14 +34,24 @@ void describe(Visitor&& visit, GroundScaleOptions& o) {
   visit("min_support", o.min_support, "count", "ground correspondences needed");
   visit("max_uncertainty", o.max_uncertainty, "-", "relative 1-sigma of a metric length");
   visit("plane_tilt_deg", o.plane_tilt_deg, "deg",
-        "1-sigma of the road against the levelled camera");
+        "1-sigma of the road's slope ahead against the levelled camera");
+  visit("cross_fall_deg", o.cross_fall_deg, "deg", "1-sigma of the road's slope to the side");
 }
+
+/// Slope of the road against the levelled camera, as its points alone say it: the prior of
+/// plane_tilt_deg is taken out again.
+struct RoadSlope {
+  double angle = 0.0;  ///< [rad]
+  double sigma = 0.0;  ///< [rad] 1σ from the spread of the support; infinite when they say nothing
+};
 
 /// What the road says about the length of one step.
 struct GroundScale {
   double baseline = 0.0;     ///< |t| in camera heights
   double uncertainty = 0.0;  ///< relative 1σ of it, from the spread of the support
   std::size_t support = 0;   ///< correspondences on the ground plane
+  RoadSlope ahead;           ///< falling ahead of the first view is positive: its axis points up
+  RoadSlope right;           ///< falling to the right is positive: the view leans to its left
 };
 
 /// Length of the translation in camera heights from the correspondences on the ground; empty when
