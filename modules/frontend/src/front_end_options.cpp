@@ -44,6 +44,8 @@ void ScaleOptions::validate() const {
       source == "height" || source == "stereo" || source == "gps" || source == "none";
   require(known, "scale.source", source, "height, stereo, gps or none");
   require(map_drift > 0.0, "scale.map_drift", std::to_string(map_drift), "positive");
+  require(road_uncertainty >= 0.0, "scale.road_uncertainty", std::to_string(road_uncertainty),
+          "at least 0");
   require(max_uncertainty > 0.0, "scale.max_uncertainty", std::to_string(max_uncertainty),
           "positive");
   require(outlier_sigmas > 0.0, "scale.outlier_sigmas", std::to_string(outlier_sigmas), "positive");

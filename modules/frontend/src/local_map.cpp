@@ -184,6 +184,12 @@ KeyframePair LocalMap::pair_with(std::size_t steps_back) const {
   return pair;
 }
 
+double LocalMap::newest_way() const {
+  if (window_.size() < 2) return 0.0;
+  const RelativePose& before = window_[window_.size() - 2].T_cam_map;
+  return (window_.back().T_cam_map * before.inverse()).t.norm();
+}
+
 void LocalMap::rescale(double factor) {
   if (window_.empty()) return;
   const Eigen::Vector3d origin = window_.front().T_cam_map.inverse().t;

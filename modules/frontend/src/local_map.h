@@ -59,6 +59,8 @@ class LocalMap {
   [[nodiscard]] std::optional<ScaleMeasurement> compare_depths(const StepTracks& step) const;
   /// Correspondences between the last keyframe and one before it.
   [[nodiscard]] KeyframePair pair_with(std::size_t steps_back) const;
+  /// Way from the last keyframe but one to the last [map].
+  [[nodiscard]] double newest_way() const;
   /// Multiplies all lengths, the oldest keyframe staying where it is.
   void rescale(double factor);
   /// Whether the window has one keyframe more than it may.

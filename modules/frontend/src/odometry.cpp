@@ -207,7 +207,7 @@ void Odometry::update_map(const CameraFrame& frame, const StepTracks& tracks, St
     map_->add_keyframe(frames_, T_cam_map_);
     keyframe_time_ = frame.time_s;
     static_cast<void>(map_->refine(tilt_->leveling()));
-    settling_.drift(scale_.drift());
+    settling_.drift(scale_.drift(map_->newest_way()));
     measure_scale(tracks, frame.camera.focal_px(), step);
     T_cam_map_ = map_->keyframes().back().T_cam_map;
     result.keyframe = map_->keyframes().back().id;

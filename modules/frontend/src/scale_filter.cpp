@@ -2,19 +2,30 @@
 
 #include <cmath>
 #include <limits>
-#include <utility>
 
 namespace oneac {
 namespace {
 
 // So many measurements in a row that are not believed: then it is the map that is wrong.
 constexpr int kPatience = 5;
+// [m] of way over which the road's error changes. Most weight has the road 5 to 15 m ahead, so a
+// stretch of it stays in view for 10 m, and halfway half of what is seen is new.
+constexpr double kStretch = 5.0;
 
 }  // namespace
 
-double ScaleFilter::drift() {
-  const double before =
-      std::exchange(variance_, variance_ + options_.map_drift * options_.map_drift);
+ScaleFilter::ScaleFilter(const ScaleOptions& options)
+    : options_(options),
+      lasting_variance_(
+          options.source == "height" ? options.road_uncertainty * options.road_uncertainty : 0.0) {}
+
+double ScaleFilter::drift(double way) {
+  const double before = variance_;
+  variance_ += options_.map_drift * options_.map_drift;
+  const double kept = std::exp(-std::abs(way) / kStretch);
+  error_ *= kept;
+  error_variance_ = lasting_variance_ + kept * kept * (error_variance_ - lasting_variance_);
+  covariance_ *= kept;
   return known_ ? before / variance_ : 1.0;
 }
 
@@ -22,26 +33,35 @@ void ScaleFilter::lose() {
   known_ = false;
 }
 
+double ScaleFilter::start(double ratio, double noise) {
+  known_ = true;
+  refused_ = 0;
+  error_ = 0.0;
+  error_variance_ = lasting_variance_;
+  variance_ = noise + lasting_variance_;
+  covariance_ = -lasting_variance_;  // what is wrong with the measurement is now in the map
+  return ratio;
+}
+
 double ScaleFilter::correct(double ratio, double sigma) {
   if (!(ratio > 0.0) || !std::isfinite(ratio) || !(sigma > 0.0)) return 1.0;
-  const double innovation = std::log(ratio);
   const double noise = sigma * sigma;
-  if (!known_) {
-    known_ = true;
-    variance_ = noise;
-    refused_ = 0;
-    return ratio;
-  }
-  const double total = variance_ + noise;
+  if (!known_) return start(ratio, noise);
+  // z = state + error + noise; the state is zero.
+  const double innovation = std::log(ratio) - error_;
+  const double state_share = variance_ + covariance_;
+  const double error_share = error_variance_ + covariance_;
+  const double total = state_share + error_share + noise;
   if (std::abs(innovation) > options_.outlier_sigmas * std::sqrt(total)) {
     if (++refused_ < kPatience) return 1.0;
-    lose();
-    return correct(ratio, sigma);
+    return start(ratio, noise);
   }
   refused_ = 0;
-  const double gain = variance_ / total;
-  variance_ *= 1.0 - gain;
-  return std::exp(gain * innovation);
+  error_ += error_share / total * innovation;
+  variance_ -= state_share * state_share / total;
+  covariance_ -= state_share * error_share / total;
+  error_variance_ -= error_share * error_share / total;
+  return std::exp(state_share / total * innovation);
 }
 
 double ScaleFilter::uncertainty() const {

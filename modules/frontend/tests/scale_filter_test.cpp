@@ -11,7 +11,7 @@ namespace {
 
 TEST(ScaleFilter, IsNotMetricBeforeTheFirstMeasurement) {
   ScaleFilter filter{ScaleOptions{}};
-  filter.drift();
+  filter.drift(1.0);
   EXPECT_FALSE(filter.is_metric());
   EXPECT_TRUE(std::isinf(filter.uncertainty()));
 }
@@ -19,26 +19,57 @@ TEST(ScaleFilter, IsNotMetricBeforeTheFirstMeasurement) {
 TEST(ScaleFilter, TakesTheFirstMeasurementWhole) {
   ScaleFilter filter{ScaleOptions{}};
   EXPECT_DOUBLE_EQ(filter.correct(1.7, 0.04), 1.7);
-  EXPECT_DOUBLE_EQ(filter.uncertainty(), 0.04);
+  EXPECT_DOUBLE_EQ(filter.uncertainty(), std::hypot(0.04, ScaleOptions{}.road_uncertainty));
   EXPECT_TRUE(filter.is_metric());
+}
+
+/// How wrong a map is whose scale drifts, and how wrong it thinks it is.
+struct Follow {
+  double rms = 0.0;
+  double uncertainty = 0.0;
+};
+
+/// @param bumps  1σ of the road's error, which lasts for some 5 m; keyframes are 1.4 m apart
+Follow follow(const ScaleOptions& options, double bumps, unsigned seed) {
+  constexpr double kWay = 1.4;
+  constexpr double kSigma = 0.01;
+  constexpr int kKeyframes = 2000;
+  ScaleFilter filter(options);
+  SceneGenerator random(seed);
+  const double kept = std::exp(-kWay / 5.0);
+  double truth_over_map = 2.0;
+  double bump = random.normal(bumps);
+  Follow result;
+  for (int i = 0; i < kKeyframes; ++i) {
+    truth_over_map *= std::exp(random.normal(options.map_drift));
+    bump = kept * bump + random.normal(bumps * std::sqrt(1.0 - kept * kept));
+    filter.drift(kWay);
+    truth_over_map /=
+        filter.correct(truth_over_map * std::exp(bump + random.normal(kSigma)), kSigma);
+    if (i >= 50) result.rms += std::pow(std::log(truth_over_map), 2) / (kKeyframes - 50);
+  }
+  result.rms = std::sqrt(result.rms);
+  result.uncertainty = filter.uncertainty();
+  return result;
 }
 
 TEST(ScaleFilter, AveragesNoisyMeasurementsOfADriftingMap) {
   ScaleOptions options;
-  ScaleFilter filter(options);
-  SceneGenerator random(5);
-  double truth_over_map = 2.0;
-  double squares = 0.0;
-  constexpr int kKeyframes = 400;
-  for (int i = 0; i < kKeyframes; ++i) {
-    truth_over_map *= std::exp(random.normal(options.map_drift));
-    filter.drift();
-    truth_over_map /= filter.correct(truth_over_map * std::exp(random.normal(0.04)), 0.04);
-    if (i > 50) squares += std::pow(std::log(truth_over_map), 2);
-  }
-  const double rms = std::sqrt(squares / (kKeyframes - 51));
-  EXPECT_LT(rms, 0.7 * 0.04);  // the drift alone allows half of one measurement's error
-  EXPECT_NEAR(rms, filter.uncertainty(), 0.5 * filter.uncertainty());
+  options.source = "stereo";
+  const Follow followed = follow(options, 0.0, 5);
+  EXPECT_LT(followed.rms, 0.9 * 0.01);  // the drift alone allows 0.8 of one measurement's error
+  EXPECT_NEAR(followed.rms, followed.uncertainty, 0.1 * followed.uncertainty);
+}
+
+TEST(ScaleFilter, DoesNotCountOneBumpAsManyMeasurements) {
+  const ScaleOptions options;
+  const Follow honest = follow(options, options.road_uncertainty, 6);
+  EXPECT_NEAR(honest.rms, honest.uncertainty, 0.15 * honest.uncertainty);
+  ScaleOptions naive = options;
+  naive.road_uncertainty = 0.0;
+  const Follow sure = follow(naive, options.road_uncertainty, 6);
+  EXPECT_GT(sure.rms, 2.0 * sure.uncertainty);
+  EXPECT_LT(honest.rms, sure.rms);
 }
 
 TEST(ScaleFilter, KeepsTheMapsScaleAgainstASingleOutlier) {
@@ -59,17 +90,18 @@ TEST(ScaleFilter, BelievesWhatIsSaidAgainAndAgain) {
 TEST(ScaleFilter, GrowsUncertainWithoutMeasurements) {
   ScaleFilter filter{ScaleOptions{}};
   static_cast<void>(filter.correct(1.0, 0.02));
-  for (int i = 0; i < 200; ++i) filter.drift();
+  for (int i = 0; i < 200; ++i) filter.drift(1.0);
   EXPECT_FALSE(filter.is_metric());
 }
 
 TEST(ScaleFilter, SaysHowFarMeasurementsSpeakForTheScaleBefore) {
   ScaleOptions options;
+  options.source = "stereo";  // no error that lasts
   ScaleFilter filter(options);
-  EXPECT_EQ(filter.drift(), 1.0);  // nothing known: the first measurement is for all
+  EXPECT_EQ(filter.drift(1.0), 1.0);  // nothing known: the first measurement is for all
   static_cast<void>(filter.correct(1.0, options.map_drift));
-  EXPECT_NEAR(filter.drift(), 0.5, 1e-12);
-  EXPECT_NEAR(filter.drift(), 2.0 / 3.0, 1e-12);
+  EXPECT_NEAR(filter.drift(1.0), 0.5, 1e-12);
+  EXPECT_NEAR(filter.drift(1.0), 2.0 / 3.0, 1e-12);
 }
 
 TEST(ScaleFilter, IgnoresNumbersThatAreNone) {

@@ -8,18 +8,22 @@ namespace oneac {
 ///
 /// The map is kept in metres: a correction is applied to the map at once, so the state is zero and
 /// only its variance remains. The local map carries the scale from keyframe to keyframe with a
-/// random walk; the road, or a speed, measures it.
+/// random walk; the road, or a speed, measures it. What is wrong with the road's measurement (its
+/// bumps, the height on the springs) stays the same while the same road is in view: a second state,
+/// so that ten keyframes on one bump do not count as ten measurements.
 class ScaleFilter {
  public:
-  explicit ScaleFilter(const ScaleOptions& options) : options_(options) {}
+  explicit ScaleFilter(const ScaleOptions& options);
 
   /// A keyframe more: the scale may have drifted.
+  /// @param way  [m] driven since the last one
   /// @return  how far what is measured from now on speaks for the scale before: the regression of
   ///          the old state on the new one, P / (P + Q); 1 while nothing is known
-  double drift();
+  double drift(double way);
   /// The map lost its scale (nothing was carried over); the next measurement sets it.
   void lose();
   /// A measurement of true length over map length, with its relative 1σ.
+  /// @param sigma  of this measurement alone, without the road's lasting error
   /// @return the factor by which the map's lengths must be multiplied; 1 for what is not believed
   [[nodiscard]] double correct(double ratio, double sigma);
 
@@ -28,9 +32,15 @@ class ScaleFilter {
   [[nodiscard]] bool is_metric() const { return uncertainty() <= options_.max_uncertainty; }
 
  private:
+  double start(double ratio, double noise);
+
   ScaleOptions options_;
+  double lasting_variance_;  ///< of the error that the road's measurements share
   bool known_ = false;
-  double variance_ = 0.0;
+  double variance_ = 0.0;        ///< of the state
+  double error_ = 0.0;           ///< that the road's measurements share now, ...
+  double error_variance_ = 0.0;  ///< ... its variance ...
+  double covariance_ = 0.0;      ///< ... and its covariance with the state
   int refused_ = 0;
 };
 
