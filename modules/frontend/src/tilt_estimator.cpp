@@ -18,8 +18,12 @@ constexpr double kLargestElevation = 0.26;
 constexpr double kGivenSigma = 1.0 * kDegree;
 // [rad] 1σ of a tilt nobody states: cameras on cars are within 10° of level.
 constexpr double kUnknownSigma = 10.0 * kDegree;
-// [rad] roll that the suspension adds from one image to the next, 1σ.
-constexpr double kSuspensionRoll = 0.1 * kDegree;
+// [rad] least turn about the lateral axis from one image to the next, 1σ: the body's on its
+// springs.
+constexpr double kLeastPitching = 0.1 * kDegree;
+// [steps] turns that are remembered, 100 s at 10 Hz: bends are rare, and the roll of the camera on
+// the level car changes when somebody gets in.
+constexpr std::size_t kTurns = 1000;
 // [rad] least scatter of the direction of travel from step to step: what the images resolve.
 constexpr double kLeastScatter = 0.2 * kDegree;
 // [σ] a turn whose roll is farther off than this weighs little.
@@ -31,6 +35,13 @@ double median(std::vector<double> values) {
   const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
   std::nth_element(values.begin(), middle, values.end());
   return *middle;
+}
+
+/// [rad] 1σ of the turns about the lateral axis that a camera with this roll does not explain.
+double pitching_beside(double roll, const std::vector<Eigen::Vector3d>& turns) {
+  std::vector<double> off;
+  for (const Eigen::Vector3d& turn : turns) off.push_back(std::abs(turn.x() - roll * turn.y()));
+  return std::max(kMadToSigma * median(std::move(off)), kLeastPitching);
 }
 
 }  // namespace
@@ -50,7 +61,7 @@ void TiltEstimator::add_step(const RelativePose& T_2_1) {
   const auto limit = static_cast<std::size_t>(options_.window_steps);
   const Eigen::AngleAxisd turn(T_2_1.R);
   turns_.push_back(turn.angle() * turn.axis());
-  if (turns_.size() > limit) turns_.pop_front();
+  if (turns_.size() > kTurns) turns_.pop_front();
   if (T_2_1.t.norm() > 0.0) {
     // Points move against the camera: it travels along −t. Backing says the same as driving.
     const Eigen::Vector3d along = -T_2_1.t.normalized();
@@ -95,19 +106,22 @@ double TiltEstimator::roll_correction(double& sigma) const {
   const bool unknown = options_.source == "drive";
   const double prior = unknown ? kUnknownSigma : kGivenSigma;
   sigma = prior;
+  if (turns_.empty()) return 0.0;
   const Eigen::Matrix3d L = leveling_rotation(given_);
+  std::vector<Eigen::Vector3d> level;
+  for (const Eigen::Vector3d& turn : turns_) level.push_back(L * turn);
   double roll = 0.0;
   for (int iteration = 0; iteration < kRollIterations; ++iteration) {
+    const double pitching = pitching_beside(roll, level);
     double information = 1.0 / (prior * prior);
     double sum = 0.0;
-    for (const Eigen::Vector3d& turn : turns_) {
+    for (const Eigen::Vector3d& turn : level) {
       // A camera that leans right by ρ sees a turn ω about the upright as (ω sin ρ, ω cos ρ).
-      const Eigen::Vector3d level = L * turn;
-      const double z = (level.x() - roll * level.y()) / kSuspensionRoll;
+      const double z = (turn.x() - roll * turn.y()) / pitching;
       const double robust = 1.0 / std::pow(1.0 + z * z / (kRollCut * kRollCut), 2);
-      const double weight = robust / (kSuspensionRoll * kSuspensionRoll);
-      information += weight * level.y() * level.y();
-      sum += weight * level.x() * level.y();
+      const double weight = robust / (pitching * pitching);
+      information += weight * turn.y() * turn.y();
+      sum += weight * turn.x() * turn.y();
     }
     roll = sum / information;
     sigma = 1.0 / std::sqrt(information);

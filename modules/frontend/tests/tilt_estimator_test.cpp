@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 namespace oneac {
@@ -100,6 +101,41 @@ TEST(TiltEstimator, LearnsRollFromTheAxisOfTurning) {
   EXPECT_NEAR(estimator.tilt().pitch_up, 3.0 * kDegree, 0.3 * kDegree);
   EXPECT_NEAR(estimator.tilt().roll_right, 2.0 * kDegree, 0.5 * kDegree);
   EXPECT_LT(estimator.belief().roll_sigma, 1.0 * kDegree);
+}
+
+/// A right-angled bend, then a straight road on which the car wanders by a degree and bounces.
+TEST(TiltEstimator, DoesNotForgetTheBendOnTheStraightRoad) {
+  TiltEstimator estimator({}, {});
+  const double roll = 1.0 * kDegree;
+  const Eigen::Matrix3d L = leveling_rotation({0.0, roll});
+  SceneGenerator scene(64);
+  const auto drive = [&](double turn) {
+    const Eigen::Matrix3d bounce = rotation_from_vector({scene.normal(0.2 * kDegree), 0.0, 0.0});
+    estimator.add_step(
+        unlevel({bounce * yaw_rotation(std::cos(turn), std::sin(turn)), {0.0, 0.0, -0.8}}, L));
+  };
+  for (int i = 0; i < 30; ++i) drive(3.0 * kDegree);
+  const double after_the_bend = estimator.tilt().roll_right;
+  EXPECT_NEAR(after_the_bend, roll, 1.5 * estimator.belief().roll_sigma);
+  double farthest = 0.0;
+  for (int i = 0; i < 300; ++i) {
+    drive(scene.normal(0.3 * kDegree));
+    farthest = std::max(farthest, std::abs(estimator.tilt().roll_right - after_the_bend));
+  }
+  EXPECT_LT(farthest, 0.2 * kDegree);
+}
+
+TEST(TiltEstimator, TakesTheNoiseOfTheTurnsFromTheDrive) {
+  const auto sigma_with = [](double pitching) {
+    TiltEstimator estimator({}, {});
+    SceneGenerator scene(65);
+    for (int i = 0; i < 60; ++i) {
+      const Eigen::Matrix3d bounce = rotation_from_vector({scene.normal(pitching), 0.0, 0.0});
+      estimator.add_step({bounce * yaw_rotation(std::cos(0.03), std::sin(0.03)), {0, 0, -0.8}});
+    }
+    return estimator.belief().roll_sigma;
+  };
+  EXPECT_GT(sigma_with(0.4 * kDegree), 1.5 * sigma_with(0.1 * kDegree));
 }
 
 TEST(TiltEstimator, KeepsTheGivenRollOnAStraightRoad) {

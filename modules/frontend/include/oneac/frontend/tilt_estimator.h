@@ -16,8 +16,9 @@ namespace oneac {
 /// part; the median of its elevation over the recent steps is the error of the given pitch.
 /// Roll: a vehicle turns about its upright, so over a bend the rotation of a levelled camera has no
 /// part about its axis; least squares of the roll's share against the yaw's, held by the given
-/// roll. On straight roads the given roll stays. With source "drive" there is nothing given: the
-/// first steps set the pitch.
+/// roll, over a longer past, since bends are rare. What the springs pitch is its noise, taken from
+/// the drive. On straight roads the given roll stays. With source "drive" there is nothing given:
+/// the first steps set the pitch.
 class TiltEstimator {
  public:
   TiltEstimator(const Tilt& given, const TiltOptions& options);
