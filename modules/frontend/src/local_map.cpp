@@ -142,11 +142,26 @@ bool LocalMap::refine(const Eigen::Matrix3d& R_level_cam) {
   const WindowRefineResult result = refine_window(exchange.window, options_.refine);
   if (!result.usable) return false;
   take_back(exchange, window_, tracks_);
+  triangulate_but(exchange.tracks);
   const double now = (window_[1].T_cam_map.inverse().t - window_[0].T_cam_map.inverse().t).norm();
   // A short window holds one pose only, so the optimiser may drift along the free scale.
   if (length > 0.0 && now > 0.0) rescale(length / now);
   update_depth_information();
   return true;
+}
+
+// Keyframes moved under the landmarks that did not take part: left as they are, they would carry
+// the length that was corrected into the next step.
+void LocalMap::triangulate_but(const std::vector<std::uint64_t>& adjusted) {
+  const WindowKeyframe& last = window_.back();
+  for (auto& [id, track] : tracks_) {
+    if (!track.alive || !track.has_depth) continue;
+    if (std::binary_search(adjusted.begin(), adjusted.end(), id)) continue;
+    const Sighting* seen = track.sighting(last.id);
+    if (seen == nullptr || track.anchor == last.id) continue;
+    const RelativePose T = last.T_cam_map * keyframe(track.anchor).T_cam_map.inverse();
+    track.inverse_depth = inverse_depth_of(T, track.ray, seen->x);
+  }
 }
 
 std::optional<ScaleMeasurement> LocalMap::compare_depths(const StepTracks& step) const {

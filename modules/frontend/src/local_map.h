@@ -10,6 +10,7 @@
 #include <Eigen/Core>
 
 #include <cstddef>
+#include <cstdint>
 #include <deque>
 #include <optional>
 #include <vector>
@@ -81,6 +82,7 @@ class LocalMap {
   [[nodiscard]] std::size_t position(std::size_t id) const { return id - window_.front().id; }
   void triangulate_new();
   void update_depth_information();
+  void triangulate_but(const std::vector<std::uint64_t>& adjusted);
   [[nodiscard]] MapPoint point_of(const Track& track) const;
   void forget_sightings(std::size_t id, std::vector<MapPoint>& points);
   void move_anchor(Track& track);
