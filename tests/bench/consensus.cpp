@@ -5,14 +5,13 @@
 //
 // The correspondences are VLFeat's, made once; the tilt is the log's. Stress rows turn the second
 // view of each pair by a random pitch and roll and take the turn out of the answer again.
+#include "log_pairs.h"
+
 #include "oneac/base/thread_clock.h"
 #include "oneac/evaluation/pair_errors.h"
 #include "oneac/evaluation/trajectory_io.h"
-#include "oneac/features/ac_extractor.h"
-#include "oneac/features/feature_options.h"
 #include "oneac/geometry/homography.h"
 #include "oneac/geometry/leveling.h"
-#include "oneac/rawlog/rawlog_source.h"
 #include "oneac/robust/one_ac_consensus.h"
 
 #include <cstdio>
@@ -29,40 +28,6 @@ using namespace oneac;
 using Acs = std::vector<AffineCorrespondence>;
 
 constexpr double kDegree = 3.14159265358979323846 / 180.0;
-
-struct Pair {
-  std::size_t index1, index2;
-  Acs acs;
-  Eigen::Matrix3d R_level_cam;
-  double focal_px;
-};
-
-std::vector<Pair> extract(const std::string& log, std::size_t every) {
-  SourceOptions source_options;
-  source_options.log = log;
-  source_options.every = every;
-  RawlogSource source(source_options);
-  FeatureOptions options;
-  options.extractor = "vlfeat";
-  const auto extractor = make_extractor(options);
-  std::vector<Pair> pairs;
-  CameraFrame before;
-  std::shared_ptr<const FrameFeatures> features_before;
-  while (const auto ticket = source.next()) {
-    CameraFrame now = source.load(*ticket);
-    auto features = extractor->prepare(now.image.view());
-    if (features_before) {
-      Pair pair{before.index, now.index, extractor->correspond(*features_before, *features),
-                leveling_rotation(tilt_from_mounting(now.T_vehicle_cam.linear())),
-                now.camera.focal_px()};
-      for (AffineCorrespondence& ac : pair.acs) ac = normalise(ac, before.camera, now.camera);
-      pairs.push_back(std::move(pair));
-    }
-    before = std::move(now);
-    features_before = std::move(features);
-  }
-  return pairs;
-}
 
 /// Uniform numbers that are the same with every standard library.
 class Random {
@@ -108,12 +73,12 @@ struct Row {
   double correspondences = 0.0;  ///< median
 };
 
-Row measure(const std::vector<Pair>& pairs, const Trajectory& truth,
+Row measure(const std::vector<LogPair>& pairs, const Trajectory& truth,
             const ConsensusOptions& options, const Stress& stress) {
   Random random(1);
   std::vector<PairError> errors;
   std::vector<double> times, sizes;
-  for (const Pair& pair : pairs) {
+  for (const LogPair& pair : pairs) {
     if (pair.index2 >= truth.poses.size()) continue;
     const Eigen::Matrix3d Q =
         roll_rotation(random.uniform(-1.0, 1.0) * stress.roll_deg * kDegree) *
@@ -207,7 +172,7 @@ const std::vector<Variant> kVariants = {
     {"40 modes, + walls", [](ConsensusOptions& o) { o.side_wall = o.front_wall = o.wall = true; }},
 };
 
-void ablation(const std::vector<Pair>& pairs, const Trajectory& truth, const char* title,
+void ablation(const std::vector<LogPair>& pairs, const Trajectory& truth, const char* title,
               const Stress& stress) {
   print_head(title);
   for (const Variant& variant : kVariants) {
@@ -224,7 +189,7 @@ int run(int argc, char** argv) {
     return 2;
   }
   const std::size_t every = argc > 3 ? std::strtoul(argv[3], nullptr, 10) : 1;
-  const std::vector<Pair> pairs = extract(argv[1], every);
+  const std::vector<LogPair> pairs = pairs_of_log(argv[1], every, "vlfeat");
   const Trajectory truth = read_trajectory(argv[2]);
   ablation(pairs, truth, "as recorded", {});
   ablation(pairs, truth, "60 % outliers, pitch to 2.5 deg, roll to 1.5 deg", {0.6, 2.5, 1.5});
