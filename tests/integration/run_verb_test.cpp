@@ -44,6 +44,9 @@ TEST_F(RunVerb, WritesTheColumnsThatOthersScriptAgainst) {
   const auto first_line = [](const std::string& text) { return text.substr(0, text.find('\n')); };
   EXPECT_EQ(first_line(read_file(out / "relative_poses.csv")),
             "index1,index2,t1,t2,qw,qx,qy,qz,tx,ty,tz,metric,inliers,acs,status");
+  EXPECT_EQ(first_line(read_file(out / "tilt.csv")),
+            "index,time,pitch_up_deg,pitch_sigma_deg,roll_right_deg,roll_sigma_deg,"
+            "suspension_pitch_deg,suspension_sigma_deg");
   EXPECT_EQ(first_line(read_file(out / "timings.csv")),
             "index1,index2,ms_decode,ms_features,ms_estimate,ms_refine");
 }
