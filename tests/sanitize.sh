@@ -1,9 +1,9 @@
 #!/usr/bin/env bash
 # Builds the tests with sanitizers and runs them; a finding ends the program and fails the script.
 #   tests/sanitize.sh asan-ubsan|tsan [TEST_PROGRAM...]    e.g. tests/sanitize.sh tsan base_test
-# Without programs: the unit tests of all modules, then the program itself in integration_test and
-# regression_test (the simulated drives). ONEAC_SANITIZE_FILTER is handed on as --gtest_filter,
-# ONEAC_SANITIZE_JOBS bounds the number of compilers (default: all cores).
+# Without programs: the unit tests of all modules, then the program itself in faults_test,
+# integration_test and regression_test (the simulated drives). ONEAC_SANITIZE_FILTER is handed on as
+# --gtest_filter, ONEAC_SANITIZE_JOBS bounds the number of compilers (default: all cores).
 set -euo pipefail
 source "$(dirname "${BASH_SOURCE[0]}")/../apps/setup.sh"
 
@@ -32,12 +32,14 @@ export TSAN_OPTIONS="suppressions=$rules/tsan.supp:halt_on_error=1:second_deadlo
 programs=("$@")
 if [ $# -eq 0 ]; then
   mapfile -t programs < <(sed -n 's/^ *oneac_test(\([a-z_]*\).*/\1/p' modules/*/CMakeLists.txt)
-  programs+=(integration_test regression_test)
+  programs+=(faults_test integration_test regression_test)
 fi
 
-# The drives on real data are the dev build's: ten times slower they show nothing more.
+# The drives on real data are the dev build's: ten times slower they show nothing more. So are the
+# bounds on memory of the long log and of the real log's copies.
 filter_of() {
   case $1 in
+    faults_test) echo "${ONEAC_SANITIZE_FILTER:--LongLog.*:MutatedRealLog.*}" ;;
     regression_test) echo "${ONEAC_SANITIZE_FILTER:-SimulatedDrive.*:HardDrive.*}" ;;
     *) echo "${ONEAC_SANITIZE_FILTER:-*}" ;;
   esac
