@@ -97,7 +97,8 @@ void GuardedStream::follow_object(std::uint8_t* buffer, size_t count) {
       break;
     case Expected::class_name:
       if (count == name_length_) {
-        expected_ = after_class(std::string(buffer, buffer + count));
+        // MRPT takes the name as a C string: up to its first zero.
+        expected_ = after_class(std::string(buffer, std::find(buffer, buffer + count, 0)));
       }
       break;
     case Expected::image_version:

@@ -82,6 +82,18 @@ TEST_F(Guarded, AnAbstractClassEndsTheLogInSilence) {
   EXPECT_EQ(observations_, 1U);
 }
 
+TEST_F(Guarded, AClassNameEndsAtItsFirstZeroAsForMrpt) {
+  std::string bytes = test::packed({test::stored_image("CAM", 0, test::ramp(0))});
+  const std::string name = "mrpt::img::CImage";
+  const std::size_t at = bytes.find(name);
+  ASSERT_NE(at, std::string::npos);
+  ++bytes[at - 1];
+  bytes.insert(at + name.size(), 1, '\0');
+  test::write_bytes(file_, bytes);
+  LogReader reader(file_);
+  EXPECT_EQ(reader.next().value().images->size(), 1U) << "MRPT has read the image";
+}
+
 TEST_F(Guarded, AnImageBeyondTheFileTakesNoMemory) {
   const std::string whole =
       test::packed({test::rmc(0, 1, 1), test::stored_image("CAM", 0, test::ramp(0))});
