@@ -14,6 +14,9 @@ namespace {
 constexpr double kRotation = 1e-9;
 // Smallest singular value, as a share of the largest, of a homography that can be inverted.
 constexpr double kSingular = 1e-9;
+// Middle singular value, as a share of the largest: about 1 / |t|, t in units of the plane's
+// distance. R's error is the rounding times its inverse squared: 1e-8 at this share.
+constexpr double kFarthest = 1e-4;
 
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
@@ -47,6 +50,7 @@ SolutionSet<PlanePose, 4> decompose_homography(const Matrix3d& H_any_scale) {
   const Vector3d values = eigen.eigenvalues();
   if (!(values(0) > kSingular * kSingular * values(2))) return poses;
   const double middle = values(1);
+  if (!(middle > kFarthest * kFarthest * values(2))) return poses;
   const Matrix3d H = unit / std::sqrt(middle);
   const double s1 = values(2) / middle, s3 = values(0) / middle;  // squared, s3 ≤ 1 ≤ s1
   if (!(s1 - s3 > kRotation)) return poses;

@@ -118,6 +118,21 @@ TEST(DecomposeHomography, EveryCandidateReproducesIt) {
   }
 }
 
+// The rotation is a difference of numbers as large as t: beyond some length it would be none.
+TEST(DecomposeHomography, NoLengthGivesAMatrixThatIsNoRotation) {
+  const Eigen::Vector3d n = Eigen::Vector3d(0.3, 0.8, 0.52).normalized();
+  const Eigen::Matrix3d R = yaw_rotation(std::cos(0.2), std::sin(0.2));
+  for (const double length : {1e2, 1e3, 1e5, 1e6, 1e7, 1e8, 1e10}) {
+    const Eigen::Vector3d t = length * Eigen::Vector3d(0.2, 0.5, 0.7);
+    const auto poses = decompose_homography(R + t * n.transpose());
+    EXPECT_EQ(poses.empty(), length > 1e4) << length;
+    for (const PlanePose& pose : poses) {
+      const Eigen::Matrix3d I = pose.motion.R.transpose() * pose.motion.R;
+      EXPECT_TRUE(I.isIdentity(1e-6)) << length;
+    }
+  }
+}
+
 TEST(DecomposeHomography, RotationsZeroAndNaNGiveNothing) {
   EXPECT_TRUE(decompose_homography(yaw_rotation(std::cos(0.2), std::sin(0.2))).empty());
   EXPECT_TRUE(decompose_homography(Eigen::Matrix3d::Zero()).empty());

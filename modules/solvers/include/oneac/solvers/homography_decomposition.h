@@ -22,7 +22,8 @@ struct PlanePose {
 ///
 /// Source: Ma, Soatto, Košecká, Sastry, "An Invitation to 3-D Vision", section 5.3.3.
 /// @param H     any scale, sign such that x2ᵀ H x1 > 0
-/// @degenerate  a rotation (no translation), not finite: empty. Motion along the normal: both meet
+/// @degenerate  a rotation (no translation), |t| above about 10⁴, not finite: empty. Motion along
+///              the normal: both meet
 /// @cost        about 1 µs, no allocation
 [[nodiscard]] SolutionSet<PlanePose, 4> decompose_homography(const Eigen::Matrix3d& H);
 
