@@ -21,8 +21,9 @@ using Edge = boost::graph_traits<FlowGraph>::edge_descriptor;
 /// reverse.
 using Arc = std::pair<Vertex, Vertex>;
 
+// An error that is no number (coordinates that overflow) belongs to no inlier.
 double likelihood(double squared_error) {
-  return std::exp(-0.5 * squared_error);
+  return squared_error >= 0.0 ? std::exp(-0.5 * squared_error) : 0.0;
 }
 
 }  // namespace

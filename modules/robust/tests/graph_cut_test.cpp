@@ -80,6 +80,16 @@ TEST(SpatialCut, CanBeUsedAgainAndTakesInfiniteErrors) {
   EXPECT_EQ(cut.label({0.0, 0.0, 0.0}, labels), 3U);
 }
 
+TEST(SpatialCut, AnErrorThatIsNoNumberIsNoInliers) {
+  std::vector<double> squared{0.1, std::numeric_limits<double>::quiet_NaN(), 0.2, 20.0};
+  const NeighbourPairs pairs{{0, 1}, {1, 2}, {1, 3}, {0, 2}};
+  for (const double weight : {0.0, 0.3}) {
+    std::vector<std::uint8_t> labels;
+    EXPECT_EQ(SpatialCut(4, pairs, weight).label(squared, labels), 2U);
+    EXPECT_EQ(labels, (std::vector<std::uint8_t>{1, 0, 1, 0}));
+  }
+}
+
 TEST(GridNeighbours, ShareTheirCellInBothViews) {
   std::vector<AffineCorrespondence> acs(5);
   acs[0].x1 = {0.0, 0.0};
