@@ -31,7 +31,7 @@ void draw_region(cv::Mat& canvas, const cv::Rect& region, double residual) {
   cv::addWeighted(part, 1.0 - kOpacity, tint, kOpacity, 0.0, part);
   char text[16];
   std::snprintf(text, sizeof text, "%.3f", residual);
-  const double size = std::min(0.3 * region.height, 0.25 * region.width) / kLetterHeight;
+  const double size = std::min(0.3 * region.height, 0.19 * region.width) / kLetterHeight;
   const cv::Point at(region.x + 4, region.y + region.height / 2);
   // A dark rim keeps the number readable on a bright sky.
   cv::putText(canvas, text, at, cv::FONT_HERSHEY_SIMPLEX, size, {0, 0, 0}, 3, cv::LINE_AA);
