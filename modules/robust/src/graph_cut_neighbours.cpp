@@ -9,9 +9,10 @@ namespace {
 
 constexpr int kMaxCells = 1000;  // per axis; four axes fit a 64-bit key
 
+/// In halves, so that the extent of the largest doubles does not overflow.
 struct Box {
-  Eigen::Vector2d low;
-  Eigen::Vector2d size;
+  Eigen::Vector2d half_low;
+  Eigen::Vector2d half_size;
 };
 
 Box box_of_first_view(AcSpan acs) {
@@ -21,12 +22,13 @@ Box box_of_first_view(AcSpan acs) {
     low = low.cwiseMin(ac.x1);
     high = high.cwiseMax(ac.x1);
   }
-  return {low, high - low};
+  return {0.5 * low, 0.5 * high - 0.5 * low};
 }
 
 std::uint64_t append_cell(std::uint64_t key, const Eigen::Vector2d& x, const Box& box, int cells) {
   for (int axis = 0; axis < 2; ++axis) {
-    const double share = box.size(axis) > 0.0 ? (x(axis) - box.low(axis)) / box.size(axis) : 0.0;
+    const double size = box.half_size(axis);
+    const double share = size > 0.0 ? (0.5 * x(axis) - box.half_low(axis)) / size : 0.0;
     const double cell = std::clamp(share * cells, 0.0, static_cast<double>(cells - 1));
     key = key * static_cast<std::uint64_t>(cells) + static_cast<std::uint64_t>(cell);
   }

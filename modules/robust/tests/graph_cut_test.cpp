@@ -111,6 +111,17 @@ TEST(GridNeighbours, AreBoundedInACrowd) {
   EXPECT_LE(grid_neighbours(crowd, 8).size(), 1000U * kMaxNeighbours);
 }
 
+TEST(GridNeighbours, HaveCellsOfTheirOwnAsFarApartAsDoublesGo) {
+  constexpr double kFar = 1.7e308;
+  std::vector<AffineCorrespondence> acs(6);
+  for (std::size_t i = 0; i < acs.size(); ++i) {
+    acs[i].x1.setConstant(kFar * (static_cast<double>(i / 2) - 1.0));
+    acs[i].x2 = acs[i].x1;
+  }
+  const NeighbourPairs expected = {{0, 1}, {2, 3}, {4, 5}};
+  EXPECT_EQ(grid_neighbours(acs, 8), expected);
+}
+
 TEST(UniformSampler, DrawsDistinctIndicesOfAll) {
   UniformSampler sampler(9, 5, 1);
   std::set<std::size_t> seen;
