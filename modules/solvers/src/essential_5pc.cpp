@@ -3,6 +3,7 @@
 #include "five_point_basis.h"
 #include "five_point_cubics.h"
 #include "five_point_polish.h"
+#include "five_rays.h"
 #include "null_space.h"
 #include "polynomial.h"
 #include "usable.h"
@@ -53,12 +54,8 @@ template <int N>
 
 /// Whether all angles between rays are the same in both views: the camera only turned, and every t
 /// fits.
-[[nodiscard]] bool is_pure_rotation(AcSpan points) {
-  Eigen::Vector3d r1[5], r2[5];
-  for (std::size_t i = 0; i < 5; ++i) {
-    r1[i] = points[i].x1.homogeneous().normalized();
-    r2[i] = points[i].x2.homogeneous().normalized();
-  }
+[[nodiscard]] bool is_pure_rotation(const internal::FiveRays& rays) {
+  const auto& [r1, r2] = rays;
   for (int i = 0; i < 5; ++i) {
     for (int j = 0; j < i; ++j) {
       if (std::abs(r1[i].dot(r1[j]) - r2[i].dot(r2[j])) > kSameAngle) return false;
@@ -79,10 +76,11 @@ SolutionSet<Matrix3d, 10> essential_5pc(AcSpan points) {
     const double u = points[i].x2.x(), v = points[i].x2.y();
     rows.row(static_cast<Eigen::Index>(i)) << u * x, u * y, u, v * x, v * y, v, x, y, 1.0;
   }
-  if (is_pure_rotation(points)) return solutions;
+  const internal::FiveRays rays(points);
+  if (is_pure_rotation(rays)) return solutions;
   Basis basis;
   if (!internal::null_space<5, 9>(rows, kSingular, basis)) return solutions;
-  basis = internal::well_scaled(basis, points);
+  basis = internal::well_scaled(basis, rays);
   PolynomialRow B[3];
   if (!internal::five_point_rows(basis, B)) return solutions;
   double d[11];

@@ -24,20 +24,15 @@ constexpr double kPlane[4] = {0.36, -0.48, 0.64, 0.48};
 using Vector9 = Eigen::Matrix<double, 9, 1>;
 
 /// Rotation that brings the rays of view 1 nearest to those of view 2.
-[[nodiscard]] Eigen::Matrix3d aligning_rotation(AcSpan points) {
-  Eigen::Vector3d r1[5], r2[5];
-  for (std::size_t i = 0; i < 5; ++i) {
-    r1[i] = points[i].x1.homogeneous().normalized();
-    r2[i] = points[i].x2.homogeneous().normalized();
-  }
+[[nodiscard]] Eigen::Matrix3d aligning_rotation(const FiveRays& rays) {
   Eigen::Matrix3d R = Eigen::Matrix3d::Identity();
   for (int step = 0; step < kAlignmentSteps; ++step) {
     Eigen::Matrix3d H = Eigen::Matrix3d::Zero();
     Eigen::Vector3d g = Eigen::Vector3d::Zero();
     for (int i = 0; i < 5; ++i) {
-      const Eigen::Vector3d a = R * r1[i];
+      const Eigen::Vector3d a = R * rays.first[i];
       H += Eigen::Matrix3d::Identity() - a * a.transpose();
-      g += a.cross(r2[i]);
+      g += a.cross(rays.second[i]);
     }
     const Eigen::Vector3d w = H.inverse() * g;
     if (!w.allFinite()) break;
@@ -67,8 +62,8 @@ using Vector9 = Eigen::Matrix<double, 9, 1>;
 
 }  // namespace
 
-Basis well_scaled(const Basis& basis, AcSpan points) {
-  const Eigen::Matrix3d R = aligning_rotation(points);
+Basis well_scaled(const Basis& basis, const FiveRays& rays) {
+  const Eigen::Matrix3d R = aligning_rotation(rays);
   Eigen::Matrix<double, 4, 3> C;  // the parts of [e_i]× R in the null space
   double outside = 0.0;
   for (int i = 0; i < 3; ++i) {

@@ -1,8 +1,7 @@
 #pragma once
 
 #include "five_point_cubics.h"
-
-#include "oneac/solvers/span.h"
+#include "five_rays.h"
 
 namespace oneac::internal {
 
@@ -15,8 +14,7 @@ namespace oneac::internal {
 /// coefficients of a solution, and all terms of the cubics that matter, are of one size. Last, the
 /// basis is reflected at a plane without structure: planar motion has entries of E that vanish,
 /// and the unknown set to one must not be among them.
-/// @param basis   orthonormal null space of the five epipolar equations
-/// @param points  the five correspondences
-[[nodiscard]] Basis well_scaled(const Basis& basis, AcSpan points);
+/// @param basis  orthonormal null space of the five epipolar equations
+[[nodiscard]] Basis well_scaled(const Basis& basis, const FiveRays& rays);
 
 }  // namespace oneac::internal

@@ -2,6 +2,8 @@
 
 #include "small_rotation.h"
 
+#include "oneac/geometry/tangent_basis.h"
+
 #include <Eigen/Geometry>
 
 #include <algorithm>
@@ -21,6 +23,8 @@ constexpr double kAccepted = 1e-13;  // residual above which a root was none
 constexpr int kApproaches = 2;       // of Newton–Schulz: 1e-4 from orthonormal becomes 1e-16
 // A step is at most this long [rad]: what asks for more is no neighbour.
 constexpr double kLongestStep = 1.0;
+
+using Tangents = Eigen::Matrix<double, 3, 2>;
 
 /// Solves the five equations in place, rows (a | b); the solution is in the last column.
 [[nodiscard]] bool solve(double (&m)[5][6]) {
@@ -44,19 +48,8 @@ constexpr double kLongestStep = 1.0;
   return true;
 }
 
-/// Two unit vectors that span the tangent plane of the sphere at t.
-struct Tangents {
-  Eigen::Vector3d u, v;
-  explicit Tangents(const Eigen::Vector3d& t) {
-    Eigen::Index least = 0;
-    t.cwiseAbs().minCoeff(&least);
-    u = t.cross(Eigen::Vector3d::Unit(least)).normalized();
-    v = t.cross(u);
-  }
-};
-
-/// Rows of the Newton step (rotation vector, shift of t along u and v | −residual). Returns the
-/// largest residual.
+/// Rows of the Newton step (rotation vector, shift of t along the tangents | −residual). Returns
+/// the largest residual.
 [[nodiscard]] double linearise(AcSpan points, const RelativePose& T, const Tangents& tangents,
                                double (&m)[5][6]) {
   double largest = 0.0;
@@ -66,7 +59,8 @@ struct Tangents {
     const Eigen::Vector3d n = a.cross(x2);  // x2ᵀ [t]× a = t · n
     const Eigen::Vector3d w = a.cross(x2.cross(T.t));
     const double residual = T.t.dot(n);
-    const double row[6] = {w.x(), w.y(), w.z(), tangents.u.dot(n), tangents.v.dot(n), -residual};
+    const double row[6] = {w.x(),    w.y(), w.z(), tangents.col(0).dot(n), tangents.col(1).dot(n),
+                           -residual};
     std::copy(row, row + 6, m[i]);
     largest = std::max(largest, std::abs(residual));
   }
@@ -104,7 +98,7 @@ RelativePose motion_near(const Eigen::Matrix3d& E) {
 bool polish_on_five_points(AcSpan points, RelativePose& T) {
   double before = 0.0;
   for (int step = 0; T.is_finite(); ++step) {
-    const Tangents tangents(T.t);
+    const Tangents tangents = tangent_basis(T.t);
     double m[5][6];
     const double residual = linearise(points, T, tangents, m);
     const bool stagnates = step > 0 && residual < kConverged && residual > 0.5 * before;
@@ -112,7 +106,7 @@ bool polish_on_five_points(AcSpan points, RelativePose& T) {
     before = residual;
     if (!solve(m) || !is_finite(m)) return false;
     T.R = small_rotation(at_most(kLongestStep, {m[0][5], m[1][5], m[2][5]})) * T.R;
-    const Eigen::Vector3d shift = m[3][5] * tangents.u + m[4][5] * tangents.v;
+    const Eigen::Vector3d shift = m[3][5] * tangents.col(0) + m[4][5] * tangents.col(1);
     T.t = (T.t + at_most(kLongestStep, shift)).normalized();
   }
   return false;

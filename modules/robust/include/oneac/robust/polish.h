@@ -1,6 +1,7 @@
 #pragma once
 
 #include "oneac/geometry/relative_pose.h"
+#include "oneac/geometry/tangent_basis.h"
 #include "oneac/robust/point_set.h"
 #include "oneac/solvers/span.h"
 
@@ -34,10 +35,6 @@ struct PolishResult {
 /// In single precision: a third of the time, good to about 1e-4 rad. For ranking candidates.
 [[nodiscard]] PolishResult polish_coarsely(const RelativePose& start, const PointSet& points,
                                            const PolishOptions& options);
-
-/// An orthonormal basis of the plane perpendicular to the unit vector t, continuous in t but for a
-/// switch of axis.
-[[nodiscard]] Eigen::Matrix<double, 3, 2> tangent_basis(const Eigen::Vector3d& t);
 
 /// The step of the parameters (w, b): exp([w]×) R, normalised t + b1 T1 + b2 T2 with the tangent
 /// basis at t.
