@@ -108,6 +108,7 @@ RoadPlane fit_plane(const std::vector<Candidate>& candidates, double height,
   plane.d = height;
   const Eigen::Vector3d prior(0.0, 1.0 / squared(options.cross_fall_deg * kDegree),
                               1.0 / squared(options.plane_tilt_deg * kDegree));
+  Eigen::LDLT<Eigen::Matrix3d> factor;
   for (int iteration = 0; iteration < kPlaneIterations; ++iteration) {
     Eigen::Matrix3d H = prior.asDiagonal();
     Eigen::Vector3d g = Eigen::Vector3d::Zero();
@@ -127,15 +128,15 @@ RoadPlane fit_plane(const std::vector<Candidate>& candidates, double height,
       weights += robust;
       if (std::abs(z) < 2.5 && c.weight > 0.3) ++plane.support;
     }
-    const Eigen::LDLT<Eigen::Matrix3d> factor(H);
+    factor.compute(H);
     const Eigen::Vector3d solution = factor.solve(g);
     if (!solution.allFinite() || !(solution(0) > kSmallestHeight)) return {};
     plane.d = solution(0);
     plane.a = solution(1);
     plane.b = solution(2);
     plane.variance_factor = weights > 0.0 ? std::max(chi2 / weights, 0.1) : 1.0;
-    plane.variances = factor.solve(Eigen::Matrix3d::Identity()).diagonal();
   }
+  plane.variances = factor.solve(Eigen::Matrix3d::Identity()).diagonal();
   return plane;
 }
 
