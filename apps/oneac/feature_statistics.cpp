@@ -1,22 +1,15 @@
 #include "feature_statistics.h"
 
+#include "fixed_text.h"
+
 #include "oneac/evaluation/statistics.h"
 #include "oneac/geometry/essential.h"
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 
 namespace oneac::app {
 namespace {
-
-/// C locale, fixed decimals.
-std::string fixed(double value, int decimals) {
-  char text[64];
-  const auto end =
-      std::to_chars(text, text + sizeof text, value, std::chars_format::fixed, decimals).ptr;
-  return {text, end};
-}
 
 double median(std::vector<double> values) {
   return values.empty() ? 0.0 : percentile(std::move(values), 50.0);
@@ -38,10 +31,10 @@ std::vector<double> values_of(const FeatureStatistics& statistics, Field&& field
 std::string row_of(const char* name, const std::vector<double>& values, int decimals) {
   const std::optional<Statistics> s = statistics_of(values);
   if (!s) return "";
-  return std::string("| ") + name + " | " + fixed(s->median, decimals) + " | " +
-         fixed(s->mean, decimals) + " | " +
-         fixed(*std::min_element(values.begin(), values.end()), decimals) + " | " +
-         fixed(s->max, decimals) + " |\n";
+  return std::string("| ") + name + " | " + fixed_text(s->median, decimals) + " | " +
+         fixed_text(s->mean, decimals) + " | " +
+         fixed_text(*std::min_element(values.begin(), values.end()), decimals) + " | " +
+         fixed_text(s->max, decimals) + " |\n";
 }
 
 constexpr const char* kTableHead =
@@ -124,9 +117,9 @@ std::string format_pairs(const FeatureStatistics& statistics) {
   for (const PairFeatures& p : statistics.pairs()) {
     text += std::to_string(p.index1) + "," + std::to_string(p.index2) + "," +
             std::to_string(p.acs) + "," + std::to_string(p.followed) + "," +
-            (p.standing ? "1" : "0") + "," + fixed(p.motion_px, 3) + "," +
-            (p.affine_residual ? fixed(*p.affine_residual, 5) : "") + "," + fixed(p.decode_ms, 3) +
-            "," + fixed(p.features_ms, 3) + "\n";
+            (p.standing ? "1" : "0") + "," + fixed_text(p.motion_px, 3) + "," +
+            (p.affine_residual ? fixed_text(*p.affine_residual, 5) : "") + "," +
+            fixed_text(p.decode_ms, 3) + "," + fixed_text(p.features_ms, 3) + "\n";
   }
   return text;
 }
@@ -146,7 +139,7 @@ std::string format_regions(const FeatureStatistics& statistics) {
       const std::vector<double>& residuals = statistics.residuals(row, column);
       text += std::to_string(row) + "," + std::to_string(column) + "," +
               std::to_string(residuals.size()) + "," +
-              (residuals.empty() ? "" : fixed(median(residuals), 5)) + "\n";
+              (residuals.empty() ? "" : fixed_text(median(residuals), 5)) + "\n";
     }
   }
   return text;
@@ -168,12 +161,12 @@ std::string format_summary(const FeatureStatistics& statistics, const std::strin
   }
   if (tracks > 0) {
     text += "\n" + std::to_string(tracks) + " tracks, seen in " +
-            fixed(static_cast<double>(images) / static_cast<double>(tracks), 2) +
+            fixed_text(static_cast<double>(images) / static_cast<double>(tracks), 2) +
             " images on average, in " + std::to_string(statistics.track_lengths().rbegin()->first) +
             " at most.\n";
   }
   if (const auto residual = statistics.median_residual()) {
-    text += "\nMedian affine residual " + fixed(*residual, 4) +
+    text += "\nMedian affine residual " + fixed_text(*residual, 4) +
             " of the correspondences whose points obey the pair's pose; by region of the image in "
             "`regions.csv` and `regions.png`.\n";
   }

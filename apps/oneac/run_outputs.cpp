@@ -1,11 +1,12 @@
 #include "run_outputs.h"
 
+#include "fixed_text.h"
+
 #include "oneac/base/atomic_file.h"
 #include "oneac/base/error.h"
 #include "oneac/frontend/map_formats.h"
 
 #include <algorithm>
-#include <charconv>
 #include <stdexcept>
 
 namespace oneac::app {
@@ -14,14 +15,6 @@ namespace {
 
 constexpr double kDegree = 3.14159265358979323846 / 180.0;
 constexpr int kTimeDecimals = 6, kAngleDecimals = 4;
-
-/// C locale.
-std::string fixed_text(double value, int decimals) {
-  char text[40];
-  const auto end =
-      std::to_chars(text, text + sizeof text, value, std::chars_format::fixed, decimals).ptr;
-  return {text, end};
-}
 
 std::string format_tilts(const std::vector<FrameResult>& frames) {
   std::string text =
