@@ -79,7 +79,8 @@ Row measure(const std::vector<LogPair>& pairs, const Trajectory& truth,
   std::vector<PairError> errors;
   std::vector<double> times, sizes;
   for (const LogPair& pair : pairs) {
-    if (pair.index2 >= truth.poses.size()) continue;
+    const auto T = true_motion(pair, truth);
+    if (!T) continue;
     const Eigen::Matrix3d Q =
         roll_rotation(random.uniform(-1.0, 1.0) * stress.roll_deg * kDegree) *
         pitch_rotation(random.uniform(-1.0, 1.0) * stress.pitch_deg * kDegree);
@@ -101,8 +102,7 @@ Row measure(const std::vector<LogPair>& pairs, const Trajectory& truth,
     row.index1 = pair.index1;
     row.index2 = pair.index2;
     row.T_2_1 = {Q.transpose() * result.pose.R, Q.transpose() * result.pose.t};
-    const Eigen::Isometry3d T = truth.poses[pair.index2].inverse() * truth.poses[pair.index1];
-    errors.push_back(pair_error(row, {T.linear(), T.translation()}));
+    errors.push_back(pair_error(row, *T));
   }
   return {summarise(errors, 0), percentile(times, 50), percentile(sizes, 50)};
 }

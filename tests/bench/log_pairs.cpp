@@ -41,4 +41,10 @@ std::vector<LogPair> pairs_of_log(const std::string& log, std::size_t every,
   return pairs;
 }
 
+std::optional<RelativePose> true_motion(const LogPair& pair, const Trajectory& truth) {
+  if (pair.index2 >= truth.poses.size()) return std::nullopt;
+  const Eigen::Isometry3d T = truth.poses[pair.index2].inverse() * truth.poses[pair.index1];
+  return RelativePose{T.linear(), T.translation()};
+}
+
 }  // namespace oneac

@@ -1,10 +1,13 @@
 #pragma once
 
+#include "oneac/evaluation/trajectory_io.h"
 #include "oneac/geometry/affine_correspondence.h"
+#include "oneac/geometry/relative_pose.h"
 
 #include <Eigen/Core>
 
 #include <cstddef>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -24,5 +27,8 @@ struct LogPair {
 /// @throws InputError for a log that cannot be read
 [[nodiscard]] std::vector<LogPair> pairs_of_log(const std::string& log, std::size_t every,
                                                 const std::string& features);
+
+/// The motion of a pair as the reference has it; empty beyond its end.
+[[nodiscard]] std::optional<RelativePose> true_motion(const LogPair& pair, const Trajectory& truth);
 
 }  // namespace oneac

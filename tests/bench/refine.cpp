@@ -43,12 +43,11 @@ struct Start {
 std::vector<Start> starts_of(const std::vector<LogPair>& pairs, const Trajectory& truth) {
   std::vector<Start> starts;
   for (const LogPair& pair : pairs) {
-    if (pair.index2 >= truth.poses.size()) continue;
+    const auto T = true_motion(pair, truth);
+    if (!T || !(T->t.norm() > kSmallestTrueStep)) continue;
     RobustResult found = one_ac_consensus(pair.acs, pair.R_level_cam, pair.focal_px, {});
     if (!has_direction(found.status)) continue;
-    const Eigen::Isometry3d T = truth.poses[pair.index2].inverse() * truth.poses[pair.index1];
-    if (!(T.translation().norm() > kSmallestTrueStep)) continue;
-    starts.push_back({&pair, found.pose, std::move(found.inliers), {T.linear(), T.translation()}});
+    starts.push_back({&pair, found.pose, std::move(found.inliers), *T});
   }
   return starts;
 }
