@@ -18,9 +18,8 @@ struct PitchStep {
 /// Pitch of the camera against its road, frame by frame: the mounting and what the springs add.
 ///
 /// Kalman filter with one state. From frame to frame the pitch changes by the turn that the images
-/// show, less what the road's slope changes (random walk over the way). Measured it is by the
-/// elevation of travel and by the slope of the road's points. What the springs add is the
-/// difference to the slow tilt of TiltEstimator.
+/// show, less what the road's slope changes (random walk over the way). It is measured by the
+/// elevation of travel. What the springs add is the difference to the slow tilt of TiltEstimator.
 class SuspensionPitch {
  public:
   /// @param mounting  pitch of the camera on the level vehicle
