@@ -6,11 +6,15 @@
 
 #include <Eigen/Dense>
 
+#include <cmath>
+
 namespace oneac {
 namespace {
 
 // Second eigenvalue below this share of the largest: the correspondences do not determine H.
 constexpr double kSingular = 1e-15;
+// |y| [-] that is the horizon of a level camera to rounding.
+constexpr double kOnHorizon = 1e-12;
 
 using Vector9 = Eigen::Matrix<double, 9, 1>;
 
@@ -30,6 +34,23 @@ using Vector9 = Eigen::Matrix<double, 9, 1>;
   return m;
 }
 
+[[nodiscard]] bool is_used(AcSpan acs, const double* weights, std::size_t i) {
+  return internal::takes_part(acs, weights, i) && internal::is_usable(acs[i]);
+}
+
+/// Two or more correspondences, not all of them on the horizon. What lies there would determine H
+/// as well as any; it is refused because every solver of this module refuses it.
+[[nodiscard]] bool are_enough(AcSpan acs, const double* weights) {
+  std::size_t used = 0;
+  bool below_or_above = false;
+  for (std::size_t i = 0; i < acs.size(); ++i) {
+    if (!is_used(acs, weights, i)) continue;
+    ++used;
+    below_or_above = below_or_above || std::abs(acs[i].x1.y()) > kOnHorizon;
+  }
+  return used >= 2 && below_or_above;
+}
+
 }  // namespace
 
 SolutionSet<Eigen::Matrix3d, 1> homography_2ac(AcSpan acs, const double* weights) {
@@ -38,15 +59,11 @@ SolutionSet<Eigen::Matrix3d, 1> homography_2ac(AcSpan acs, const double* weights
       !internal::normalise(acs, weights, &AffineCorrespondence::x2, N2)) {
     return {};
   }
-  std::size_t used = 0;
-  for (std::size_t i = 0; i < acs.size(); ++i) {
-    used += internal::takes_part(acs, weights, i) && internal::is_usable(acs[i]) ? 1 : 0;
-  }
-  if (used < 2) return {};
+  if (!are_enough(acs, weights)) return {};
   const auto found = internal::least_squares_null_vector<9>(
       [&](auto&& use) {
         for (std::size_t i = 0; i < acs.size(); ++i) {
-          if (!internal::takes_part(acs, weights, i) || !internal::is_usable(acs[i])) continue;
+          if (!is_used(acs, weights, i)) continue;
           use(rows_of(N1 * acs[i].x1, N2 * acs[i].x2, (N2.s / N1.s) * acs[i].A),
               weights == nullptr ? 1.0 : weights[i]);
         }

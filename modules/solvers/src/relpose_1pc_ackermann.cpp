@@ -10,8 +10,17 @@ namespace {
 
 // Rows shorter than this [-] say nothing: both points on the horizon.
 constexpr double kEmptyRow = 1e-12;
-// Flow [-] that is rounding: the camera stands still.
-constexpr double kNoFlow = 1e-12;
+// Change of a point's elevation [-], relative, that is rounding.
+constexpr double kSameElevation = 1e-12;
+
+/// A camera that stands, or turns on the spot, leaves a point's elevation, y² / (1 + x²), as it is.
+/// So does one on a circle whose chord lies square to the ray: outside the view of a camera that
+/// looks ahead.
+[[nodiscard]] bool changes_elevation(const Eigen::Vector2d& x1, const Eigen::Vector2d& x2) {
+  const double before = x1.y() * x1.y() * (1.0 + x2.x() * x2.x());
+  const double after = x2.y() * x2.y() * (1.0 + x1.x() * x1.x());
+  return std::abs(after - before) > kSameElevation * (before + after);
+}
 
 }  // namespace
 
@@ -22,7 +31,7 @@ SolutionSet<PlanarPose, 1> relpose_1pc_ackermann(AcSpan points, const double* we
   for (std::size_t i = 0; i < points.size(); ++i) {
     const double weight = weights == nullptr ? 1.0 : weights[i];
     if (!(weight > 0.0) || !internal::has_points(points[i])) continue;
-    moved = moved || (points[i].x2 - points[i].x1).squaredNorm() > kNoFlow * kNoFlow;
+    moved = moved || changes_elevation(points[i].x1, points[i].x2);
     const Eigen::Vector4d row = internal::epipolar_row(points[i]);
     const double a = row(0) - row(1);
     const double b = row(2) + row(3);

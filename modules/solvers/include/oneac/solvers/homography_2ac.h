@@ -14,7 +14,8 @@ namespace oneac {
 /// docs/solvers/homography_2ac.md
 /// @param acs   N ≥ 2 correspondences on one plane
 /// @return      at most one H, scaled and signed as homography_4pc
-/// @degenerate  fewer than two places, det A ≤ 0, singular H, a rotation, not finite: empty
+/// @degenerate  fewer than two places, nothing but the horizon (y = 0), det A ≤ 0, singular H, a
+///              rotation, not finite: empty
 /// @cost        about 5 µs for two, no allocation; pure, thread-safe
 [[nodiscard]] SolutionSet<Eigen::Matrix3d, 1> homography_2ac(AcSpan acs,
                                                              const double* weights = nullptr);

@@ -17,8 +17,9 @@ namespace oneac {
 ///                above the rear axle and to look along the car
 /// @return        at most one pose T_2_1, |t| = 1; the sign (forwards, backwards) from the points'
 /// depth
-/// @degenerate    y = y' = 0, no motion, not finite: empty. Turning on the spot breaks the model
-/// unnoticed
+/// @degenerate    y = y' = 0, no motion, turning on the spot (y² / (1 + x²) stays in every point),
+/// not
+///                finite: empty
 /// @cost          about 50 ns for one, no allocation; pure, thread-safe
 [[nodiscard]] SolutionSet<PlanarPose, 1> relpose_1pc_ackermann(AcSpan points,
                                                                const double* weights = nullptr);
