@@ -53,13 +53,33 @@ inline void store(const typename LanesOf<Number>::Type& from, Number* to) {
   __builtin_memcpy(to, &from, sizeof from);
 }
 
+/// A quarter of the partial sums.
+template <class Number>
+struct QuarterOf;
+template <>
+struct QuarterOf<float> {
+  typedef float Type __attribute__((vector_size(16)));
+};
+template <>
+struct QuarterOf<double> {
+  typedef double Type __attribute__((vector_size(16)));
+};
+
+inline float sum_of_quarter(const QuarterOf<float>::Type& q) {
+  return (q[0] + q[2]) + (q[1] + q[3]);
+}
+inline double sum_of_quarter(const QuarterOf<double>::Type& q) {
+  return q[0] + q[1];
+}
+
 /// Sum of the partial sums, halves first.
 template <class Number>
-inline Number sum(Number* partial) {
-  for (std::size_t half = kPartialSums<Number> / 2; half > 0; half /= 2) {
-    for (std::size_t i = 0; i < half; ++i) partial[i] += partial[i + half];
-  }
-  return partial[0];
+inline Number sum(const Number* partial) {
+  using Quarter = typename QuarterOf<Number>::Type;
+  constexpr std::size_t kStep = kPartialSums<Number> / 4;
+  Quarter q[4];
+  for (std::size_t i = 0; i < 4; ++i) __builtin_memcpy(&q[i], partial + i * kStep, sizeof q[i]);
+  return sum_of_quarter((q[0] + q[2]) + (q[1] + q[3]));
 }
 
 }  // namespace
