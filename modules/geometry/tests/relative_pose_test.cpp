@@ -78,6 +78,17 @@ TEST(YawRotation, IsTheRightHandedRotationByTheNegativeAngleAboutY) {
   EXPECT_TRUE(R.isApprox(rotation_from_vector({0, -0.3, 0}), 1e-14));
 }
 
+TEST(RotationFromVector, IsTheAngleAboutTheAxisAtEverySize) {
+  const Eigen::Vector3d axis = Eigen::Vector3d(2, -3, 6) / 7.0;
+  for (double angle : {1e-12, 1e-6, 1e-3, 0.02, 0.0999999, 0.1000001, 0.3, 3.0}) {
+    const Eigen::Matrix3d R = rotation_from_vector(angle * axis);
+    const Eigen::Matrix3d expected = Eigen::AngleAxisd(angle, axis).toRotationMatrix();
+    EXPECT_LT((R - expected).norm(), 1e-15) << angle;
+    EXPECT_LT((R * R.transpose() - Eigen::Matrix3d::Identity()).norm(), 2e-15) << angle;
+  }
+  EXPECT_EQ(rotation_from_vector({0, 0, 0}), Eigen::Matrix3d(Eigen::Matrix3d::Identity()));
+}
+
 TEST(PitchRotation, TurnsYTowardsZ) {
   const Eigen::Matrix3d R = pitch_rotation(0.3);
   expect_rotation(R);
