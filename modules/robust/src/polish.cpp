@@ -1,8 +1,9 @@
 #include "oneac/robust/polish.h"
 
+#include "normal_solve.h"
 #include "point_arrays.h"
 
-#include <Eigen/Dense>
+#include <Eigen/Core>
 
 #include <type_traits>
 
@@ -63,13 +64,13 @@ class Minimiser {
     double damping = kFirstDamping;
     bool converged = false;
     for (; !converged && result_.iterations < options_.max_iterations; ++result_.iterations) {
-      const Eigen::LLT<Matrix5> factor = damped(damping);
-      if (now_.curvature == Curvature::kNewton && factor.info() != Eigen::Success) {
+      Vector5 step;
+      if (!internal::solve_positive<5>(damped(damping), -now_.g, step)) {
+        if (now_.curvature == Curvature::kWeights) break;
         curvature = Curvature::kWeights;
         now_ = build(result_.pose, curvature);
         continue;
       }
-      const Vector5 step = -factor.solve(now_.g);
       if (!step.allFinite()) break;
       converged = step.norm() < options_.converged;
       // A step that moves the points by less than the loss is wide ends in the basin.
@@ -109,10 +110,10 @@ class Minimiser {
     return n;
   }
 
-  [[nodiscard]] Eigen::LLT<Matrix5> damped(double damping) const {
+  [[nodiscard]] Matrix5 damped(double damping) const {
     Matrix5 H = now_.H;
     H.diagonal() += damping * now_.H.diagonal() + Vector5::Constant(1e-12);
-    return H.llt();
+    return H;
   }
 
   /// Takes the step when the cost falls. Returns by how much, zero or less when it does not.
