@@ -1,7 +1,5 @@
 #include "one_plane.h"
 
-#include "evenly_spaced.h"
-
 #include "oneac/geometry/angular_errors.h"
 #include "oneac/solvers/homography_decomposition.h"
 
@@ -28,20 +26,25 @@ constexpr std::size_t kLookedAt = 128;
 constexpr std::size_t kGlance = 32;
 constexpr double kGlanceShare = 0.75;
 
-/// At most kLookedAt inliers, evenly spaced.
-std::vector<AffineCorrespondence> some_inliers(AcSpan acs, const std::vector<bool>& inliers) {
-  std::vector<AffineCorrespondence> all;
-  all.reserve(acs.size());
-  for (std::size_t i = 0; i < acs.size(); ++i) {
-    if (inliers[i]) all.push_back(acs[i]);
+/// At most `count` inliers, evenly spaced.
+std::vector<AffineCorrespondence> some_inliers(AcSpan acs, const std::vector<bool>& inliers,
+                                               std::size_t count) {
+  const auto all = static_cast<std::size_t>(std::count(inliers.begin(), inliers.end(), true));
+  const std::size_t wanted = std::min(count, all);
+  std::vector<AffineCorrespondence> some;
+  some.reserve(wanted);
+  for (std::size_t i = 0, seen = 0; some.size() < wanted; ++i) {
+    if (inliers[i] && seen++ == some.size() * all / wanted) some.push_back(acs[i]);
   }
-  return evenly_spaced(all, kLookedAt);
+  return some;
 }
 
-/// x2 of a point of the plane, minus the measured one, and its derivative with respect to m.
+/// x2 of a point of the plane, minus the measured one. Its derivative with respect to m is
+/// by_depth x1ᵀ.
 struct Transfer {
+  Eigen::Vector3d x1;
   Eigen::Vector2d r;
-  Eigen::Matrix<double, 2, 3> J;
+  Eigen::Vector2d by_depth;
 };
 
 std::optional<Transfer> transfer(const RelativePose& T, const Eigen::Vector3d& m,
@@ -50,8 +53,7 @@ std::optional<Transfer> transfer(const RelativePose& T, const Eigen::Vector3d& m
   const Eigen::Vector3d y = T.R * x + T.t * m.dot(x);
   if (!(y.z() > 1e-6)) return std::nullopt;
   const Eigen::Vector2d projected = y.head<2>() / y.z();
-  const Eigen::Vector2d by_depth = (T.t.head<2>() - projected * T.t.z()) / y.z();
-  return Transfer{projected - ac.x2, by_depth * x.transpose()};
+  return Transfer{x, projected - ac.x2, (T.t.head<2>() - projected * T.t.z()) / y.z()};
 }
 
 Eigen::Vector3d fit_plane(const RelativePose& T, AcSpan acs, double threshold) {
@@ -64,8 +66,9 @@ Eigen::Vector3d fit_plane(const RelativePose& T, AcSpan acs, double threshold) {
       const auto e = transfer(T, m, ac);
       if (!e) continue;
       const double share = scale * scale / (e->r.squaredNorm() + scale * scale);
-      H += share * share * e->J.transpose() * e->J;
-      g += share * share * e->J.transpose() * e->r;
+      const Eigen::Vector3d weighted = share * share * e->x1;
+      H += (e->by_depth.squaredNorm() * weighted) * e->x1.transpose();
+      g += e->by_depth.dot(e->r) * weighted;
     }
     const Eigen::Vector3d step = -H.ldlt().solve(g);
     if (!step.allFinite()) break;
@@ -96,16 +99,15 @@ std::optional<Eigen::Vector3d> plane_of(const RelativePose& T_2_1,
 
 std::optional<Eigen::Vector3d> common_plane(const RelativePose& T_2_1, AcSpan acs,
                                             const std::vector<bool>& inliers, double threshold) {
-  const std::vector<AffineCorrespondence> points = some_inliers(acs, inliers);
-  if (!plane_of(T_2_1, evenly_spaced(points, kGlance), threshold, kGlanceShare)) {
+  if (!plane_of(T_2_1, some_inliers(acs, inliers, kGlance), threshold, kGlanceShare)) {
     return std::nullopt;
   }
-  return plane_of(T_2_1, points, threshold, kPlaneShare);
+  return plane_of(T_2_1, some_inliers(acs, inliers, kLookedAt), threshold, kPlaneShare);
 }
 
 std::optional<RelativePose> twin_pose(const RelativePose& T_2_1, const Eigen::Vector3d& m,
                                       AcSpan acs, const std::vector<bool>& inliers) {
-  const std::vector<AffineCorrespondence> on_plane = some_inliers(acs, inliers);
+  const std::vector<AffineCorrespondence> on_plane = some_inliers(acs, inliers, kLookedAt);
   const Eigen::Matrix3d H = T_2_1.R + T_2_1.t * m.transpose();
   for (const PlanePose& candidate : poses_from_homography(H, on_plane)) {
     if (rotation_error(candidate.motion.R, T_2_1.R) < kSamePose) continue;

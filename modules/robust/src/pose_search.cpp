@@ -23,24 +23,27 @@ constexpr std::size_t kSample = 64;
 // Width of the first score against the threshold: half a step of the sweep moves the points by
 // about two pixels.
 constexpr double kSampleWidth = 2.0;
+// Translations [plane distances] whose squares are normal numbers in single precision, and whose
+// gradients are far above the kernels' smallest: others are no vehicle's.
+constexpr double kShortest = 1e-9;
+constexpr double kLongest = 1e9;
 
-/// Planar motions at one relative turn of the second view, with room for whole groups of lanes.
+/// Planar motions of any length at one relative turn of the second view, with room for whole groups
+/// of lanes. Their essential matrices are scored by ratios in which the length cancels.
 class PlanarPool {
  public:
   void clear() { size_ = 0; }
   [[nodiscard]] std::size_t size() const { return size_; }
 
   void add(double cos_alpha, double sin_alpha, double tx, double tz) {
-    const double length = std::sqrt(tx * tx + tz * tz);
-    if (!(length > 0.0)) return;
+    const double squared = tx * tx + tz * tz;
+    if (!(squared > kShortest * kShortest && squared < kLongest * kLongest)) return;
     if (size_ >= motions_.size()) grow();
-    const double x = tx / length;
-    const double z = tz / length;
-    motions_[size_] = {cos_alpha, sin_alpha, x, z};
-    e12_[size_] = static_cast<float>(-z);
-    e21_[size_] = static_cast<float>(z * cos_alpha - x * sin_alpha);
-    e23_[size_] = static_cast<float>(-z * sin_alpha - x * cos_alpha);
-    e32_[size_] = static_cast<float>(x);
+    motions_[size_] = {cos_alpha, sin_alpha, tx, tz};
+    e12_[size_] = static_cast<float>(-tz);
+    e21_[size_] = static_cast<float>(tz * cos_alpha - tx * sin_alpha);
+    e23_[size_] = static_cast<float>(-tz * sin_alpha - tx * cos_alpha);
+    e32_[size_] = static_cast<float>(tx);
     ++size_;
   }
 
@@ -219,7 +222,7 @@ SearchResult search(AcSpan acs, const Eigen::Matrix3d& R_level_cam, double thres
     const Eigen::Matrix3d Q2t = (Q[entry.turn] * R_level_cam).transpose();
     const auto& [c, s, tx, tz] = entry.motion;
     result.best.push_back(
-        {{Q2t * yaw_rotation(c, s) * R_level_cam, Q2t * Eigen::Vector3d(tx, 0.0, tz)},
+        {{Q2t * yaw_rotation(c, s) * R_level_cam, Q2t * Eigen::Vector3d(tx, 0.0, tz).normalized()},
          static_cast<double>(entry.cost)});
   }
   return result;
