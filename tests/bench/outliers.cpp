@@ -1,0 +1,104 @@
+// How estimators bear wrong correspondences: time and wrong basins over their share, on a real
+// drive.
+//
+//   oneac_bench_outliers LOG POSES EVERY [FIGURE.svg]     prints Markdown, draws the times
+//
+// The correspondences are VLFeat's, made once; the tilt is the log's. One seed, the same wrong
+// correspondences for every estimator.
+#include "stress.h"
+
+#include "oneac/base/atomic_file.h"
+#include "oneac/robust/gc_ransac.h"
+#include "oneac/robust/one_ac_consensus.h"
+#include "oneac/study/line_plot.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <exception>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace {
+
+using namespace oneac;
+
+const std::vector<double> kShares = {0.0, 0.2, 0.4, 0.5, 0.6, 0.7, 0.8, 0.85, 0.9};
+
+struct Contestant {
+  std::string name;
+  bool drawn;  ///< in the figure
+  PairEstimator estimate;
+};
+
+Contestant in_gc_ransac(const char* name, MinimalMethod method, bool drawn) {
+  return {name, drawn, [method](AcSpan acs, const LogPair& pair) {
+            return gc_ransac(acs, pair.R_level_cam, pair.focal_px, method, 1, {});
+          }};
+}
+
+std::vector<Contestant> contestants() {
+  return {{"1AC consensus", true,
+           [](AcSpan acs, const LogPair& pair) {
+             return one_ac_consensus(acs, pair.R_level_cam, pair.focal_px, {});
+           }},
+          in_gc_ransac("1AC ground", MinimalMethod::k1acGround, true),
+          in_gc_ransac("1AC wall", MinimalMethod::k1acWall, false),
+          in_gc_ransac("2PC ground", MinimalMethod::k2pcGround, false),
+          in_gc_ransac("3PC vertical", MinimalMethod::k3pcVertical, false),
+          in_gc_ransac("5PC", MinimalMethod::k5pc, true),
+          in_gc_ransac("8PC", MinimalMethod::k8pc, true)};
+}
+
+void draw(const std::string& path, std::vector<PlotCurve> curves) {
+  LinePlot plot;
+  plot.title = "Time of an estimate";
+  plot.subtitle = "KITTI 03, VLFeat, median over the pairs; 1AC ground, 5PC, 8PC in GC-RANSAC";
+  plot.x_label = "wrong correspondences [%]";
+  plot.y_label = "time [log10 of µs]";
+  for (const double share : kShares) plot.x.push_back(100.0 * share);
+  plot.curves = std::move(curves);
+  write_file_atomically(path, svg_of(plot));
+}
+
+int run(int argc, char** argv) {
+  if (argc < 4) {
+    std::fprintf(stderr, "usage: oneac_bench_outliers LOG POSES EVERY [FIGURE.svg]\n");
+    return 2;
+  }
+  const std::size_t every = std::strtoul(argv[3], nullptr, 10);
+  const std::vector<LogPair> pairs = pairs_of_log(argv[1], every, "vlfeat");
+  const Trajectory truth = read_trajectory(argv[2]);
+  std::vector<PlotCurve> curves;
+  std::printf("| ms (wrong basins of %zu) |", pairs.size());
+  for (const double share : kShares) std::printf(" %.0f %% |", 100.0 * share);
+  std::printf("\n|---|");
+  for (std::size_t i = 0; i < kShares.size(); ++i) std::printf("---|");
+  for (const Contestant& contestant : contestants()) {
+    PlotCurve curve{contestant.name, {}};
+    std::printf("\n| %s |", contestant.name.c_str());
+    for (const double share : kShares) {
+      const StressRow row = measure_under({share, 0.0, 0.0}, pairs, truth, contestant.estimate);
+      std::printf(" %.2f (%zu) |", row.median_ms, row.summary.bad);
+      std::fflush(stdout);
+      curve.y.push_back(std::max(0.0, std::log10(1e3 * row.median_ms)));
+    }
+    if (contestant.drawn) curves.push_back(curve);
+  }
+  std::printf("\n");
+  if (argc > 4) draw(argv[4], curves);
+  return 0;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  try {
+    return run(argc, argv);
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "oneac_bench_outliers: %s\n", error.what());
+    return 2;
+  }
+}
