@@ -38,10 +38,13 @@ constexpr double kMetRotationDeg = 0.05;
 constexpr double kMetDirectionDeg = 1.0;
 // Steps of the first passes need not be finer than the last pass [rad].
 constexpr double kCoarseStep = 1e-5;
-// Share of the settled cost below which other modes need not be looked at. A wrong motion costs
-// less the smaller the image is in pixels: by (1/2)² at half the size, from 0.345 (KITTI) to below
-// 1/4.
+// Share of the settled cost below which other modes need not be looked at.
 constexpr double kNoDoubt = 0.25;
+// Bound [rad] that tells motions apart: one pixel at f = 700. What a wrong motion leaves is an
+// angle, decided by the scene, from 0.8 mrad (KITTI). In squares of the bound it is the less, the
+// wider the bound or the smaller the image: a wrong motion costs 0.345 a point at one pixel, 0.04
+// at three.
+constexpr double kTellingBound = 1.0 / 700.0;
 // Motions farther apart than either are in different basins: what counts as a wrong one.
 constexpr double kBasinRotationDeg = 1.0;
 constexpr double kBasinDirectionDeg = 15.0;
@@ -103,7 +106,9 @@ class Look {
   /// within the bound, of a motion that says nothing, cost 1/3 a point, and the right motion at
   /// most 1/4 where the bound is no less than two sigma of the noise.
   [[nodiscard]] bool settled(const Candidate& c, const PointSet& points, double share = 1.0) const {
-    return c.cost < share * p_.options.settled_cost * static_cast<double>(points.size());
+    const double wider = std::max(1.0, p_.threshold / kTellingBound);
+    return c.cost * wider * wider <
+           share * p_.options.settled_cost * static_cast<double>(points.size());
   }
 
   /// The distinct hypotheses, best first.

@@ -1,6 +1,7 @@
 #include "oneac/robust/one_ac_consensus.h"
 
 #include "oneac/geometry/angular_errors.h"
+#include "oneac/geometry/homography.h"
 #include "oneac/geometry/leveling.h"
 #include "oneac/robust/pitch_sweep.h"
 #include "oneac/test_support/scenes.h"
@@ -31,6 +32,29 @@ std::vector<AffineCorrespondence> street(SceneGenerator& scene, const RelativePo
   return acs;
 }
 
+/// The plane that a car in a street sees at an image point: road, facades beside it, the street's
+/// end.
+Plane plane_at(const Eigen::Vector2d& x, double side, double end) {
+  const double road = x.y() > 0.03 ? 1.65 / x.y() : 1e9;
+  const double facade = side / std::max(1e-3, std::abs(x.x()));
+  if (road < facade) return {Eigen::Vector3d::UnitY(), 1.65};
+  if (facade < 40.0) return {std::copysign(1.0, x.x()) * Eigen::Vector3d::UnitX(), side};
+  return {Eigen::Vector3d::UnitZ(), end};
+}
+
+/// A wide, flat image of such a street, in metres, with 0.3 px of noise.
+std::vector<AffineCorrespondence> seen_by_a_car(SceneGenerator& scene, const RelativePose& T) {
+  std::vector<AffineCorrespondence> acs;
+  const double width = scene.uniform(4.0, 12.0);
+  while (acs.size() < 400) {
+    const Eigen::Vector2d x(scene.uniform(-0.8, 0.8), scene.uniform(-0.24, 0.24));
+    const Plane plane = plane_at(x, width * scene.uniform(0.7, 1.3), scene.uniform(30.0, 80.0));
+    const auto ac = correspondence_from_homography(plane_induced_homography(T, plane), x);
+    if (ac) acs.push_back(scene.with_noise(*ac, 0.3 / kFocal, 0.03));
+  }
+  return acs;
+}
+
 void expect_close(const RobustResult& result, const RelativePose& truth, int trial) {
   ASSERT_EQ(result.status, PoseStatus::kOk) << "trial " << trial;
   EXPECT_LT(rotation_error(result.pose.R, truth.R), 0.2 * kDegree) << "trial " << trial;
@@ -52,6 +76,23 @@ TEST(OneAcConsensus, CoversTheSuspensionsPitchBetweenTheFrames) {
     T.R = pitch_rotation(pitch * kDegree) * T.R;
     expect_close(one_ac_consensus(street(scene, T), kLevel, kFocal, {}), T,
                  static_cast<int>(10 * pitch));
+  }
+}
+
+TEST(OneAcConsensus, TakesNoWrongBasinThatAWideBoundForgives) {
+  SceneGenerator scene(28);
+  ConsensusOptions wide;
+  wide.threshold_px = 3.0;
+  for (int trial = 0; trial < 400; ++trial) {
+    const double yaw = scene.uniform(-0.05, 0.05);
+    const double way = scene.uniform(0.2, 0.8);  // [m]
+    RelativePose T{yaw_rotation(std::cos(yaw), std::sin(yaw)),
+                   way * Eigen::Vector3d(scene.uniform(-0.1, 0.1), 0.0, -1.0)};
+    T.R = pitch_rotation(scene.uniform(-0.6, 0.6) * kDegree) *
+          roll_rotation(scene.uniform(-0.3, 0.3) * kDegree) * T.R;
+    const RobustResult result = one_ac_consensus(seen_by_a_car(scene, T), kLevel, kFocal, wide);
+    EXPECT_LT(rotation_error(result.pose.R, T.R), 1.0 * kDegree) << "trial " << trial;
+    EXPECT_LT(direction_error(result.pose.t, T.t), 15.0 * kDegree) << "trial " << trial;
   }
 }
 
