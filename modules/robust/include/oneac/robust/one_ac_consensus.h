@@ -19,9 +19,10 @@ struct ConsensusOptions {
   double threshold_px = 1.0;  ///< [px] Sampson inlier bound; DoG points repeat to 0.3…0.5 px (1σ)
   int first_modes = 8;        ///< polished in a first look without pitch sweep; 0: none. Its answer
                               ///< stands when it explains the points
-  int first_problems = 128;   ///< solved per solver in the first look
+  int first_problems = 64;    ///< solved per solver in the first look
   double settled_cost = 0.25;  ///< [-] MSAC cost a point below which an answer stands: that of
-                               ///< noise when the bound is two sigma; 1/3 says nothing
+                               ///< noise when the bound is two sigma; 1/3 says nothing. Less for
+                               ///< bounds wider than a pixel at f = 700, by their square
   double pitch_sweep_deg =
       2.4;  ///< [deg] relative pitch covered each way; the suspension gives up to this
   double pitch_step_deg = 0.6;  ///< [deg] at f = 700 px 7 px, half of it to the nearest step:
