@@ -24,9 +24,8 @@ constexpr std::size_t kLeastCorners = 50;
 double median_flow(const std::vector<KltTrack>& tracks,
                    const std::vector<std::optional<PatchMatch>>& matches) {
   std::vector<double> flows;
-  for (std::size_t i = 0; i < tracks.size(); ++i) {
+  for (std::size_t i = 0; i < tracks.size(); ++i)
     if (matches[i]) flows.push_back((matches[i]->warp.centre - tracks[i].u).norm());
-  }
   if (flows.empty()) return 0.0;
   const auto middle = flows.begin() + static_cast<std::ptrdiff_t>(flows.size() / 2);
   std::nth_element(flows.begin(), middle, flows.end());
@@ -38,6 +37,7 @@ void append(TrackedPair& pair, const KltTrack& track, const PatchMatch& match) {
   pair.tracks.push_back(track.id);
   pair.affine_sigma.push_back(static_cast<float>(match.quality.affine_sigma));
   pair.point_sigma.push_back(static_cast<float>(match.quality.point_sigma));
+  pair.perspective.push_back(match.quality.perspective.cast<float>());
 }
 
 }  // namespace

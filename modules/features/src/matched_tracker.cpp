@@ -75,6 +75,7 @@ TrackedPair MatchedTracker::advance(std::shared_ptr<const FrameFeatures> now, co
       append(ac, aligned, known, pair);
       pair.affine_sigma.push_back(static_cast<float>(quality.affine_sigma));
       pair.point_sigma.push_back(static_cast<float>(quality.point_sigma));
+      pair.perspective.push_back(quality.perspective.cast<float>());
     }
     history_.end_all_but(frame_);
     pair.standing = median_shift(pair.acs) < options_.klt.standing_px;

@@ -1,5 +1,7 @@
 #include "patch_alignment.h"
 
+#include "patch_perspective.h"
+
 #include <Eigen/LU>
 
 #include <algorithm>
@@ -41,6 +43,7 @@ struct Problem {
   const AnchoredPatch& patch;
   const ImagePyramid& image;
   const float* weight;
+  float normal[kCount * (kCount + 1) / 2];  ///< upper triangle, row by row
   SpdInverse<kCount> inverse{};
   AlignmentSums sums{};
   alignas(64) float residual[kMaxSamples];
@@ -52,14 +55,13 @@ struct Problem {
 
   [[nodiscard]] bool set_weights(const float* weights) {
     weight = weights;
-    float upper[kCount * (kCount + 1) / 2];
     const PatchKernels& kernels = patch_kernels();
     if constexpr (kCount == kAffineParameters) {
-      kernels.affine_normal(window(), patch.patch, weight, upper);
+      kernels.affine_normal(window(), patch.patch, weight, normal);
     } else {
-      kernels.translation_normal(window(), patch.patch, weight, upper);
+      kernels.translation_normal(window(), patch.patch, weight, normal);
     }
-    return inverse.set(upper);
+    return inverse.set(normal);
   }
 
   /// Residuals at the warp; false when the window leaves the image.
@@ -174,6 +176,8 @@ bool refine_robustly(Problem<kAffineParameters>& problem, PatchWarp& warp, doubl
   const double variance = static_cast<double>(problem.sums.squares / kept);
   set_sigmas(problem.inverse, problem.patch,
              std::sqrt(variance * kCorrelation * noise_share(window)), quality);
+  const double radius = static_cast<double>(window.radius) * level_scale(problem.patch.level);
+  quality.perspective = perspective_shift(problem.normal, radius);
   return true;
 }
 

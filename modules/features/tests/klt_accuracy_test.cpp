@@ -84,6 +84,34 @@ TEST(KltAccuracy, WhatIsReturnedUnderStrongWarpsIsRight) {
   EXPECT_LT(share_above(errors.point, 1.0), 0.01);
 }
 
+/// A road comes nearer: far from affine over a patch, so that centres are found too low.
+TEST(KltAccuracy, TellsHowFarPerspectiveShiftsAPatch) {
+  std::vector<double> found, corrected;
+  for (std::uint64_t seed = 601; seed < 607; ++seed) {
+    View first, second;
+    second.bend = {0.0, -0.001};  // half a camera height of way, a focal length of 500 px
+    second.seed = seed;
+    first.noise = second.noise = 1.0;
+    const Texture texture(seed);
+    const GreyImage one = render(texture, first), two = render(texture, second);
+    const auto tracker = make_tracker(klt());
+    static_cast<void>(tracker->advance(tracker->prepare(one.view()), {}));
+    const TrackedPair pair = tracker->advance(tracker->prepare(two.view()), {});
+    for (std::size_t k = 0; k < pair.acs.size(); ++k) {
+      const auto& ac = pair.acs[k];
+      const Eigen::Vector2d d = ac.x1 - first.centre();
+      const Eigen::Vector2d eta = second.bend / (1.0 + second.bend.dot(d));
+      const Eigen::Vector2d shift = ac.A * (pair.perspective[k].cast<double>() * eta);
+      const double error = (ac.x2 - second.map(ac.x1)).y();
+      found.push_back(error);
+      corrected.push_back(error + shift.y());
+    }
+  }
+  ASSERT_GT(found.size(), 600U);
+  EXPECT_GT(median_of(found), 0.015);  // [px]
+  EXPECT_LT(std::abs(median_of(corrected)), 0.25 * median_of(found));
+}
+
 TEST(KltAccuracy, SigmasTellTheSizeOfTheErrors) {
   const Errors errors = errors_over(401, 4, 0.3);
   ASSERT_GT(errors.affine.size(), 400U);

@@ -54,31 +54,35 @@ class Texture {
   std::vector<double> lattice_[3];
 };
 
-/// How a picture is taken: what the first image shows at u is seen at A (u − centre) + centre +
-/// shift.
+/// How a picture is taken: what the first image shows at u = centre + d is seen at
+/// A d / (1 + bend·d) + centre + shift.
 struct View {
   int width = 480;
   int height = 360;
   Eigen::Matrix2d A = Eigen::Matrix2d::Identity();
   Eigen::Vector2d shift = Eigen::Vector2d::Zero();
+  Eigen::Vector2d bend = Eigen::Vector2d::Zero();  ///< [1/px] perspective
   double gain = 1.0;
   double noise = 0.0;  ///< [grey]
   std::uint64_t seed = 1;
 
   [[nodiscard]] Eigen::Vector2d centre() const { return {0.5 * width, 0.5 * height}; }
   [[nodiscard]] Eigen::Vector2d map(const Eigen::Vector2d& u) const {
-    return A * (u - centre()) + centre() + shift;
+    const Eigen::Vector2d d = u - centre();
+    return A * d / (1.0 + bend.dot(d)) + centre() + shift;
+  }
+  [[nodiscard]] Eigen::Vector2d unmap(const Eigen::Vector2d& u) const {
+    const Eigen::Vector2d q = A.inverse() * (u - centre() - shift);
+    return q / (1.0 - bend.dot(q)) + centre();
   }
 };
 
 [[nodiscard]] inline GreyImage render(const Texture& texture, const View& view) {
   GreyImage image(view.width, view.height);
   SceneGenerator random(view.seed);
-  const Eigen::Matrix2d inverse = view.A.inverse();
   for (int v = 0; v < view.height; ++v) {
     for (int u = 0; u < view.width; ++u) {
-      const Eigen::Vector2d source =
-          inverse * (Eigen::Vector2d(u, v) - view.centre() - view.shift) + view.centre();
+      const Eigen::Vector2d source = view.unmap({u, v});
       double grey = view.gain * texture(source.x(), source.y());
       if (view.noise > 0.0) grey += random.normal(view.noise);
       image.row(v)[u] = static_cast<std::uint8_t>(std::clamp(std::lround(grey), 0L, 255L));

@@ -33,6 +33,13 @@ double in_normalised_units(const std::vector<float>& sigmas_px, std::size_t i, d
   return i < sigmas_px.size() ? static_cast<double>(sigmas_px[i]) / focal_px : 0.0;
 }
 
+/// K of TrackedPair::perspective: its rows are pixels of the first image, as δ and 1/η are.
+Eigen::Matrix2d in_normalised_units(const Eigen::Matrix2f& perspective,
+                                    const PinholeCamera& first) {
+  const Eigen::Vector2d per_px(1.0 / first.fx, 1.0 / first.fy);
+  return per_px.asDiagonal() * perspective.cast<double>() * per_px.asDiagonal();
+}
+
 StepTracks normalised(const TrackedPair& pair, const PinholeCamera& first,
                       const CameraFrame& second) {
   StepTracks step;
@@ -43,6 +50,8 @@ StepTracks normalised(const TrackedPair& pair, const PinholeCamera& first,
     step.acs.push_back(normalise(pair.acs[i], first, second.camera));
     step.point_sigma.push_back(in_normalised_units(pair.point_sigma, i, second.camera.focal_px()));
     step.affine_sigma.push_back(in_normalised_units(pair.affine_sigma, i, 1.0));
+    if (i < pair.perspective.size())
+      step.perspective.push_back(in_normalised_units(pair.perspective[i], first));
     if (!image.empty()) step.grey.push_back(grey_at(image, pair.acs[i].x2));
   }
   return step;
@@ -103,7 +112,7 @@ FrameResult FrontEnd::process(PreparedFrame prepared) {
     started_ = true;
     return odometry_->start(frame);
   }
-  FrameResult result = odometry_->advance(frame, tracks);
+  FrameResult result = odometry_->advance(frame, std::move(tracks));
   result.step->features_ms = features_ms;
   constexpr double kMillisecond = 1e-3;
   profiler_.registerUserMeasure("features", features_ms * kMillisecond, true);

@@ -60,7 +60,7 @@ FrameResult Odometry::start(const CameraFrame& frame) {
   return result;
 }
 
-FrameResult Odometry::advance(const CameraFrame& frame, const StepTracks& tracks) {
+FrameResult Odometry::advance(const CameraFrame& frame, StepTracks tracks) {
   FrameResult result;
   result.index = frame.index;
   result.time_s = frame.time_s;
@@ -91,8 +91,7 @@ FrameResult Odometry::advance(const CameraFrame& frame, const StepTracks& tracks
   return result;
 }
 
-Odometry::TwoView Odometry::estimate(const StepTracks& tracks, double focal_px,
-                                     StepResult& step) const {
+Odometry::TwoView Odometry::estimate(StepTracks& tracks, double focal_px, StepResult& step) const {
   if (tracks.standing) {
     TwoView stands;
     stands.status = StepStatus::kNoMotion;
@@ -118,6 +117,7 @@ Odometry::TwoView Odometry::estimate(const StepTracks& tracks, double focal_px,
   result.status = StepStatus::kNoMotion;
   if (is_stationary(found.status)) return result;
   result.status = StepStatus::kOk;
+  correct_perspective(found.pose, tracks);
   if (!options_.refine_enabled) return result;
   const StageTimer timer(step.refine_ms);
   const RefineResult refined =

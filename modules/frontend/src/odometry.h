@@ -28,7 +28,7 @@ class Odometry {
   /// The first frame; its image is not used.
   [[nodiscard]] FrameResult start(const CameraFrame& frame);
   /// A frame and its correspondences with the one before.
-  [[nodiscard]] FrameResult advance(const CameraFrame& frame, const StepTracks& tracks);
+  [[nodiscard]] FrameResult advance(const CameraFrame& frame, StepTracks tracks);
   /// Settles what is left; the next frame is a first one.
   [[nodiscard]] Settled finish();
 
@@ -53,7 +53,7 @@ class Odometry {
     std::size_t inlier_count = 0;
   };
 
-  [[nodiscard]] TwoView estimate(const StepTracks& tracks, double focal_px, StepResult& step) const;
+  [[nodiscard]] TwoView estimate(StepTracks& tracks, double focal_px, StepResult& step) const;
   void set_length(const StepTracks& tracks, const TwoView& found, const CameraFrame& frame,
                   StepResult& step);
   void measure_pair(const StepTracks& tracks, const TwoView& found, double focal_px,

@@ -30,6 +30,8 @@ struct Track {
   std::uint8_t grey = 0;
   std::size_t anchor = 0;  ///< keyframe id
   Sighting now;            ///< in the newest frame; `keyframe` is not used
+  Eigen::Vector2d offset = Eigen::Vector2d::Zero();      ///< of the landmark, now.x, from the patch
+                                                         ///< that is followed from here
   Eigen::Vector2d previous_x = Eigen::Vector2d::Zero();  ///< in the frame before
   std::vector<Sighting> seen;  ///< by keyframes of the window, oldest first
   Eigen::Vector2d ray = Eigen::Vector2d::Zero();
@@ -51,12 +53,20 @@ struct MeasuredDepth {
 struct StepTracks {
   std::vector<AffineCorrespondence> acs;
   std::vector<std::uint64_t> tracks;
-  std::vector<double> point_sigma;    ///< [-]; 0: unknown
-  std::vector<double> affine_sigma;   ///< [-]; 0: unknown
+  std::vector<double> point_sigma;           ///< [-]; 0: unknown
+  std::vector<double> affine_sigma;          ///< [-]; 0: unknown
+  std::vector<Eigen::Matrix2d> perspective;  ///< TrackedPair::perspective, normalised; empty: none
+  /// x2 less where the tracker goes on from: what correct_perspective() has moved it by. Empty:
+  /// not.
+  std::vector<Eigen::Vector2d> moved;
   std::vector<std::uint8_t> grey;     ///< of the second image there; may be empty
   std::vector<MeasuredDepth> depths;  ///< of the points in the second image; empty: none
   bool standing = false;              ///< the images are near-identical
 };
+
+/// Moves the points of the second image from where affine alignment found them to where they are:
+/// patches are seen in perspective, which the pose and their affinities tell.
+void correct_perspective(const RelativePose& T_2_1, StepTracks& step);
 
 using TrackMap = std::map<std::uint64_t, Track>;  // ordered: the same sums in every run
 

@@ -29,7 +29,10 @@ struct TrackedPair {
                                           ///< that the track lives through, never used twice
   std::vector<float> affine_sigma;        ///< 1σ of an entry of A [-]; 0 where unknown
   std::vector<float> point_sigma;         ///< 1σ of u2 [px]; 0 where unknown
-  bool standing = false;                  ///< the images are near-identical: the camera stood
+  /// K [px²]: a patch that maps as δ ↦ A δ (1 − η·δ), which perspective does, is found with its
+  /// centre u2 shifted by −A K η; zero where unknown.
+  std::vector<Eigen::Matrix2f> perspective;
+  bool standing = false;  ///< the images are near-identical: the camera stood
 };
 
 /// Follows affine frames through a sequence of images. prepare() holds all that concerns one image
