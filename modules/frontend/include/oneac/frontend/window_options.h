@@ -16,7 +16,8 @@ struct WindowOptions {
   double max_rotation_deg = 8.0;  ///< [deg] since the last keyframe: a fifth of a usual image
   double max_seconds = 2.0;       ///< [s] between keyframes of a moving camera
   int min_carry = 8;              ///< landmarks that carry the length of a step, at least
-  int max_landmarks = 400;        ///< in one adjustment, longest tracks first: bounds the time
+  int max_landmarks = 1500;  ///< in one adjustment, longest tracks first: bounds the time, above
+                             ///< what the window of a usual drive holds
   WindowRefineOptions refine;
 
   void validate() const;
