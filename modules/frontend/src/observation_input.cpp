@@ -116,7 +116,7 @@ cv::Mat loaded(const mrpt::img::CImage& image) {
 /// The right image of a rectified pair: equal cameras side by side. Any other is left out.
 void add_right_image(const mrpt::obs::CObservation& observation, CameraFrame& frame) {
   const auto* pair = dynamic_cast<const mrpt::obs::CObservationStereoImages*>(&observation);
-  if (pair == nullptr || !pair->hasImageRight) return;
+  if (pair == nullptr || !compat::is_set(pair->hasImageRight)) return;
   const auto& T = pair->rightCameraPose;
   const bool beside = T.x() > 0.0 && std::hypot(T.y(), T.z()) < kSideways * T.x() &&
                       std::abs(T.quat().r()) > std::cos(kParallel);
@@ -141,8 +141,9 @@ std::optional<Eigen::Vector3d> in_vehicle(const mrpt::obs::CObservation& observa
   if (imu == nullptr) return std::nullopt;
   Eigen::Vector3d in_sensor;
   for (std::size_t axis = 0; axis < fields.size(); ++axis) {
-    if (!imu->has(fields[axis])) return std::nullopt;
-    in_sensor(static_cast<Eigen::Index>(axis)) = imu->get(fields[axis]);
+    const auto value = compat::imu_field(*imu, fields[axis]);
+    if (!value) return std::nullopt;
+    in_sensor(static_cast<Eigen::Index>(axis)) = *value;
   }
   if (!in_sensor.allFinite()) return std::nullopt;
   return rotation_of(imu->sensorPose) * in_sensor;

@@ -11,6 +11,7 @@
 #include <mrpt/obs/CObservationStereoImages.h>
 
 #include <cmath>
+#include <cstring>
 #include <stdexcept>
 
 namespace oneac {
@@ -78,6 +79,16 @@ TEST(ObservationInput, TurnsAccelerationsIntoTheVehicleFrame) {
   imu.set(mrpt::obs::IMU_WY, 0.3);
   imu.set(mrpt::obs::IMU_WZ, 0.0);
   EXPECT_NEAR(yaw_rate_from_observation(imu).value(), 0.3, 1e-9);
+}
+
+// As a damaged log has them: MRPT copies the bytes.
+TEST(ObservationInput, TakesADamagedFlagForNotSet) {
+  mrpt::obs::CObservationIMU imu;
+  for (const auto field : {mrpt::obs::IMU_WX, mrpt::obs::IMU_WY, mrpt::obs::IMU_WZ}) {
+    imu.set(field, 0.1);
+  }
+  std::memset(&imu.dataIsPresent[mrpt::obs::IMU_WY], 2, 1);
+  EXPECT_FALSE(yaw_rate_from_observation(imu).has_value());
 }
 
 TEST(ObservationInput, ReadsTheSpeedOfAValidRmcMessage) {

@@ -1,6 +1,7 @@
 #include "camera_view.h"
 
 #include "oneac/base/error.h"
+#include "oneac/mrpt_compat/observations.h"
 
 #include <mrpt/obs/CObservationImage.h>
 #include <mrpt/obs/CObservationStereoImages.h>
@@ -63,7 +64,7 @@ void append_pair(const CObservationStereoImages& pair, const LogImages& images,
   const auto T_vehicle_left = isometry_of(pair.cameraPose);
   views.push_back({pair.sensorLabel, CameraView::Side::left, image_of(pair.imageLeft, images),
                    &pair.leftCamera, T_vehicle_left, Eigen::Isometry3d::Identity()});
-  if (!pair.hasImageRight) return;
+  if (!compat::is_set(pair.hasImageRight)) return;
   views.push_back({pair.sensorLabel, CameraView::Side::right, image_of(pair.imageRight, images),
                    &pair.rightCamera, T_vehicle_left, isometry_of(pair.rightCameraPose)});
 }
@@ -116,7 +117,8 @@ std::vector<CameraView> camera_views(const RawlogRecord& record) {
 void check_cameras(const mrpt::obs::CObservation& observation) {
   if (const auto* pair = dynamic_cast<const CObservationStereoImages*>(&observation)) {
     require_pose(isometry_of(pair->cameraPose), "the left camera");
-    if (pair->hasImageRight) require_pose(isometry_of(pair->rightCameraPose), "the right camera");
+    if (compat::is_set(pair->hasImageRight))
+      require_pose(isometry_of(pair->rightCameraPose), "the right camera");
   } else if (const auto* mono = dynamic_cast<const CObservationImage*>(&observation)) {
     require_pose(isometry_of(mono->cameraPose), "the camera");
   }

@@ -34,8 +34,9 @@ std::optional<Eigen::Vector3d> vector_of(const CObservationIMU& imu,
                                          const std::array<mrpt::obs::TIMUDataIndex, 3>& fields) {
   mrpt::math::TPoint3D in_sensor;
   for (std::size_t i = 0; i < fields.size(); ++i) {
-    if (!imu.has(fields[i])) return std::nullopt;
-    in_sensor[i] = imu.get(fields[i]);
+    const auto value = compat::imu_field(imu, fields[i]);
+    if (!value) return std::nullopt;
+    in_sensor[i] = *value;
   }
   const mrpt::math::TPoint3D v = imu.sensorPose.rotateVector(in_sensor);
   if (!std::isfinite(v.x + v.y + v.z)) return std::nullopt;

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 #include <mrpt/obs/CObservationIMU.h>
 
+#include <cstring>
 #include <limits>
 
 namespace oneac {
@@ -105,6 +106,19 @@ TEST(ReferenceCollector, ReadsWhatAnImuHas) {
   ASSERT_TRUE(samples[0].angular_rate);
   EXPECT_TRUE(samples[0].angular_rate->isApprox(Eigen::Vector3d(0.1, 0.2, 0.3)));
   EXPECT_FALSE(samples[0].acceleration) << "two of its axes are not in the log";
+}
+
+// As a damaged log has it: MRPT copies the byte.
+TEST(ReferenceCollector, LeavesOutWhatADamagedFlagSaysOfAnImu) {
+  ReferenceCollector collector;
+  mrpt::obs::CObservationIMU imu;
+  imu.timestamp = mrpt::Clock::fromDouble(kStart);
+  for (const auto field : {mrpt::obs::IMU_WX, mrpt::obs::IMU_WY, mrpt::obs::IMU_WZ}) {
+    imu.set(field, 0.1);
+  }
+  std::memset(&imu.dataIsPresent[mrpt::obs::IMU_WY], 2, 1);
+  collector.add(imu);
+  EXPECT_TRUE(collector.build().imu.empty());
 }
 
 TEST(ReferenceCollector, TurnsAnImuIntoTheVehiclesAxes) {

@@ -20,6 +20,7 @@
 #include <mrpt/img/TCamera.h>
 #include <mrpt/obs/CObservation.h>
 #include <mrpt/obs/CObservationGPS.h>
+#include <mrpt/obs/CObservationIMU.h>
 #include <mrpt/serialization/CArchive.h>
 #include <mrpt/version.h>
 
@@ -27,6 +28,7 @@
 
 #include <cstdint>
 #include <exception>
+#include <optional>
 #include <string>
 
 // MRPT_VERSION is 0x258 for 2.5.8, and two digits per part (0x020E00) from 2.10.2 on.
@@ -69,6 +71,19 @@ inline std::string class_name(const mrpt::rtti::CObject& object) {
 template <class Message>
 const Message* gps_message(const mrpt::obs::CObservationGPS& gps) {
   return gps.hasMsgClass<Message>() ? &gps.getMsgByClass<Message>() : nullptr;
+}
+
+/// A flag of an observation. MRPT takes it from a log byte by byte; a damaged one is neither true
+/// nor false, and must not be looked at as a bool. Only 1 counts.
+inline bool is_set(const bool& flag) {
+  return reinterpret_cast<const std::uint8_t&>(flag) == 1;
+}
+
+/// A field of an IMU's reading, if it has it. (MRPT's own has() trusts the flag.)
+inline std::optional<double> imu_field(const mrpt::obs::CObservationIMU& imu,
+                                       mrpt::obs::TIMUDataIndex field) {
+  if (!is_set(imu.dataIsPresent.at(field))) return std::nullopt;
+  return imu.rawMeasurements.at(field);
 }
 
 /// What an MRPT exception says, in one line: 2.x wraps the message in a report with a call stack.
