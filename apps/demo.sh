@@ -6,7 +6,7 @@ set -euo pipefail
 source "$(dirname "${BASH_SOURCE[0]}")/setup.sh"
 
 install_packages build
-build_preset release oneac | tail -n 1
+quietly build_preset release oneac
 oneac="$oneac_root/build/release/apps/oneac/oneac"
 
 if [ $# -gt 0 ]; then

@@ -10,7 +10,7 @@ cmake --preset release -B build/package -DCMAKE_INSTALL_PREFIX=/usr >build/packa
   cat build/package-configure.log >&2
   exit 1
 }
-cmake --build build/package | tail -n 1
+quietly cmake --build build/package
 rm -f build/package/*.deb
 (cd build/package && cpack >cpack.log 2>&1) || {
   cat build/package/cpack.log >&2

@@ -48,3 +48,19 @@ build_preset() {
   fi
   (cd "$oneac_root" && cmake --build --preset "$preset" ${1:+--target "$@"})
 }
+
+# quietly COMMAND...: runs it and prints its last line; what failed, when it fails.
+quietly() {
+  local log failed=0
+  log=$(mktemp)
+  "$@" >"$log" 2>&1 || failed=1
+  if [ "$failed" -eq 0 ]; then
+    tail -n 1 "$log"
+  elif grep -q '^FAILED:' "$log"; then
+    sed -n '/^FAILED:/,$p' "$log" | head -n 100 >&2
+  else
+    tail -n 40 "$log" >&2
+  fi
+  rm -f "$log"
+  return "$failed"
+}

@@ -18,7 +18,7 @@ for module in "${modules[@]}"; do
   mapfile -t -O "${#programs[@]}" programs < <(
     sed -n 's/^ *oneac_test(\([a-z_]*\).*/\1/p' "modules/$module/CMakeLists.txt")
 done
-build_preset coverage "${programs[@]}" | tail -n 1
+quietly build_preset coverage "${programs[@]}"
 
 # Counts of earlier runs would be added to.
 find build/coverage -name '*.gcda' -delete

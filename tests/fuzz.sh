@@ -15,7 +15,7 @@ targets=("$@")
 if [ $# -eq 0 ]; then
   for folder in tests/fuzz/corpus/*/; do targets+=("$(basename "$folder")"); done
 fi
-build_preset fuzz "${targets[@]/#/fuzz_}" | tail -n 1
+quietly build_preset fuzz "${targets[@]/#/fuzz_}"
 
 # fuzz TARGET: one line with what was tried; the whole log and status 1 at a finding.
 fuzz() {

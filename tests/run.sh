@@ -5,7 +5,7 @@ set -euo pipefail
 source "$(dirname "${BASH_SOURCE[0]}")/../apps/setup.sh"
 
 install_packages build test
-build_preset dev | tail -n 1
+quietly build_preset dev
 
 export ONEAC_REAL_DATA="${ONEAC_REAL_DATA:-$oneac_root/../shared/data}"
 without_data=()

@@ -49,7 +49,7 @@ stopped=()
 for program in "${programs[@]}"; do
   targets=("$program")
   case $program in integration_test | regression_test) targets+=(oneac) ;; esac
-  build_preset "$preset" "${targets[@]}" | tail -n 1
+  quietly build_preset "$preset" "${targets[@]}"
   folder=$(dirname "$(find "build/$preset" -name "$program" -type f)")
   echo "oneac: $program ($preset)"
   (cd "$folder" && "./$program" --gtest_brief=1 --gtest_filter="$(filter_of "$program")") ||
