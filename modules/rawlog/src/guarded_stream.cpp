@@ -3,6 +3,7 @@
 #include <mrpt/rtti/CObject.h>
 
 #include <algorithm>
+#include <array>
 #include <cstring>
 #include <stdexcept>
 #include <utility>
@@ -141,12 +142,26 @@ void GuardedStream::replace_image(std::uint8_t* version, size_t count) {
 }
 
 void GuardedStream::check_count(std::uint8_t* buffer) {
-  const bool text = std::exchange(last_count_, 0) == kWord && is_text(buffer);
-  if (text) return;
-  last_count_ = word_of(buffer);
-  if (last_count_ <= kHarmlessCount) return;
-  if (last_count_ <= kLargestCount && stream_.has_bytes(last_count_)) return;
-  std::fill(buffer, buffer + kWord, std::uint8_t{0});
+  const std::uint32_t before = std::exchange(last_count_, 0);
+  if (before == kWord && is_text(buffer) && is_for_letters(buffer)) return;
+  const std::uint32_t count = word_of(buffer);
+  const bool there =
+      count <= kHarmlessCount || (count <= kLargestCount && stream_.has_bytes(count));
+  if (there && std::uint64_t{before} * count <= kLargestCount) {
+    last_count_ = count;
+  } else {
+    std::fill(buffer, buffer + kWord, std::uint8_t{0});
+  }
+}
+
+// Whether MRPT reads into a string of four letters, not into a count. It counts in local variables;
+// a string among them has its own address and length before its letters (libstdc++, short strings).
+bool GuardedStream::is_for_letters(const std::uint8_t* buffer) const {
+  const auto at = reinterpret_cast<std::uintptr_t>(buffer);
+  if (at < stack_address() || at > stack_) return true;  // a field of an object
+  std::array<std::uintptr_t, 2> before{};
+  std::memcpy(before.data(), buffer - sizeof(before), sizeof(before));
+  return before[0] == at && before[1] == kWord;
 }
 
 void GuardedStream::check_matrix(std::uint32_t columns) {

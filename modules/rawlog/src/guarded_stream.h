@@ -19,6 +19,7 @@ namespace oneac {
 ///   against the bytes that are left, and read as 0 when there are fewer. The record then fails to
 ///   parse, or the four bytes were a number that nobody here uses: no class whose content is used
 ///   stores such a number in four bytes.
+/// - So is the second of two counts, rows and columns, whose product is above kLargestCount.
 /// - A matrix may not be larger than the rest of the file.
 /// - Images are taken out: MRPT reads an external image whose name is a number, see
 ///   take_images().
@@ -53,6 +54,7 @@ class GuardedStream : public mrpt::io::CStream {
   void follow_object(std::uint8_t* buffer, size_t count);
   void replace_image(std::uint8_t* version, size_t count);
   void check_count(std::uint8_t* buffer);
+  [[nodiscard]] bool is_for_letters(const std::uint8_t* buffer) const;
   void check_matrix(std::uint32_t columns);
   [[nodiscard]] Expected after_class(const std::string& name) const;
 

@@ -10,6 +10,7 @@
 #include <gtest/gtest.h>
 #include <mrpt/img/CImage.h>
 #include <mrpt/obs/CObservation2DRangeScan.h>
+#include <mrpt/obs/CObservation3DRangeScan.h>
 #include <mrpt/obs/CSensoryFrame.h>
 #include <sys/resource.h>
 
@@ -66,6 +67,34 @@ TEST_F(Guarded, ALengthBeyondTheFileTakesNoMemory) {
     EXPECT_NE(damage.find("record 2"), std::string::npos) << damage;
     EXPECT_EQ(observations_, 2U);
   }
+  EXPECT_LT(peak_mb(), before + 50U);
+}
+
+// Three numbers in a row: the camera's width, the length of its name, the name's letters.
+TEST_F(Guarded, ALengthThatLooksLikeALabelTakesNoMemory) {
+  auto image = test::stored_image("CAM", 0, test::ramp(0));
+  image->cameraParams.ncols = 4;
+  image->cameraParams.cameraName = "NAME";
+  const std::string whole = test::packed({test::rmc(0, 1, 1), image});
+  const std::size_t before = peak_mb();
+  for (const std::uint32_t letters : {0x20202020U, 0x41414141U, 0x7e7e7e7eU}) {
+    const std::string damage = damage_of(with_length_before(whole, "NAME", letters));
+    EXPECT_NE(damage.find("record 1"), std::string::npos) << damage;
+  }
+  EXPECT_LT(peak_mb(), before + 50U);
+}
+
+TEST_F(Guarded, ADepthImageLargerThanAnySensorsTakesNoMemory) {
+  auto scan = mrpt::obs::CObservation3DRangeScan::Create();
+  scan->hasRangeImage = true;
+  scan->rangeImage.setZero(37, 41);
+  std::string bytes = test::packed({test::rmc(0, 1, 1), scan});
+  const std::size_t rows = bytes.find(std::string({37, 0, 0, 0, 41, 0, 0, 0}));
+  ASSERT_NE(rows, std::string::npos);
+  bytes.replace(rows, 8, std::string({'\0', '\x70', 0, 0, '\0', '\x70', 0, 0}));  // 28672 each
+  const std::size_t before = peak_mb();
+  const std::string damage = damage_of(bytes);
+  EXPECT_NE(damage.find("record 1"), std::string::npos) << damage;
   EXPECT_LT(peak_mb(), before + 50U);
 }
 
@@ -157,6 +186,18 @@ TEST_F(Guarded, LabelsOfFourLettersAreNoCounts) {
     test::write_log(file_, {gps});
     EXPECT_EQ(LogReader(file_).next()->observation->sensorLabel, label);
   }
+}
+
+// MRPT reads their names into a local variable.
+TEST_F(Guarded, LayersOfFourLettersKeepTheirNames) {
+  auto scan = mrpt::obs::CObservation3DRangeScan::Create();
+  scan->rangeImageOtherLayers["NEAR"].setZero(3, 5);
+  test::write_log(file_, {scan});
+  LogReader reader(file_);
+  const auto record = reader.next();
+  ASSERT_TRUE(record) << reader.damage()->what();
+  const auto& read = dynamic_cast<const mrpt::obs::CObservation3DRangeScan&>(*record->observation);
+  EXPECT_EQ(read.rangeImageOtherLayers.count("NEAR"), 1U);
 }
 
 TEST_F(Guarded, StoredImagesComeThroughWithTheirPixels) {
