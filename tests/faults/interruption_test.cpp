@@ -14,26 +14,27 @@ namespace oneac {
 namespace {
 
 namespace fs = std::filesystem;
-using std::chrono::steady_clock;
 
 constexpr int kFrames = 600;
-constexpr unsigned kSeed = 7;  // of the moments, as shares of the whole run's time
+constexpr unsigned kSeed = 7;  // of the moments, as shares of the whole run's CPU time
 
 class Interruption : public FaultFixture {
  protected:
   void SetUp() override {
     test::write_log(log(), textured_frames(kFrames));
-    const auto start = steady_clock::now();
-    ASSERT_EQ(run({"--quiet"}).exit_code, 0);
-    whole_ = steady_clock::now() - start;
+    const ProgramResult whole = run({"--quiet"});
+    ASSERT_EQ(whole.exit_code, 0);
+    whole_s_ = whole.cpu_seconds;
   }
 
-  /// The run into a folder of its own, given a signal after a share of the whole run's time.
+  /// The run into a folder of its own, given a signal after a share of the whole run's CPU time.
   [[nodiscard]] ProgramResult run_with(int signal, double share, const fs::path& folder) const {
     std::vector<std::string> command = run_command({"--quiet"});
     command[4] = folder.string();
     RunningProgram program(command);
-    std::this_thread::sleep_for(share * whole_);
+    while (!program.has_ended() && program.cpu_seconds() < share * whole_s_) {
+      std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    }
     program.send(signal);
     return program.wait();
   }
@@ -70,7 +71,7 @@ class Interruption : public FaultFixture {
     }
   }
 
-  std::chrono::duration<double> whole_{};
+  double whole_s_ = 0.0;
 };
 
 TEST_F(Interruption, AKilledRunLeavesWholeFilesOrNone) {

@@ -32,6 +32,8 @@ class RunningProgram {
   void send(int signal) const;
   /// Whether it has ended (not waited for yet).
   [[nodiscard]] bool has_ended() const;
+  /// Of all its threads so far [s]; stands still while the machine holds it.
+  [[nodiscard]] double cpu_seconds() const;
   [[nodiscard]] ProgramResult wait();
 
  private:
