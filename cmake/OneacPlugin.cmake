@@ -5,6 +5,9 @@ function(oneac_plugin target)
     target_include_directories(${target} PRIVATE
       $<TARGET_PROPERTY:oneac::${module},INTERFACE_INCLUDE_DIRECTORIES>)
   endforeach()
+  # Among those directories are MRPT's, which stay a third party's: no warnings from them.
+  target_include_directories(${target} SYSTEM PRIVATE
+    $<TARGET_PROPERTY:mrpt::obs,INTERFACE_INCLUDE_DIRECTORIES>)
   target_compile_features(${target} PRIVATE cxx_std_17)
   target_link_libraries(${target} PRIVATE Eigen3::Eigen mrpt::containers mrpt::system)
   set_target_properties(${target} PROPERTIES PREFIX "")
