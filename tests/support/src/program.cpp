@@ -41,6 +41,7 @@ RunningProgram::RunningProgram(const std::vector<std::string>& command,
   const std::string out = (folder_.path() / "out").string();
   const std::string err = (folder_.path() / "err").string();
   std::vector<char*> arguments;
+  arguments.reserve(command.size() + 1);
   for (const std::string& word : command) arguments.push_back(const_cast<char*>(word.c_str()));
   arguments.push_back(nullptr);
   child_ = ::fork();
