@@ -171,6 +171,7 @@ TEST(OneAcConsensus, RecognisesATurnOnTheSpot) {
   SceneGenerator scene(30);
   const RelativePose T{yaw_rotation(std::cos(0.15), std::sin(0.15)), Eigen::Vector3d::Zero()};
   std::vector<AffineCorrespondence> acs;
+  acs.reserve(150);
   for (int i = 0; i < 150; ++i) {
     acs.push_back(scene.with_noise(scene.on_plane(T, scene.any_plane()), 0.15 / kFocal, 0.01));
   }
@@ -186,6 +187,7 @@ TEST(OneAcConsensus, SaysWhenEverythingLiesOnOnePlaneAndTakesTheVehiclesMotion) 
     const RelativePose T = scene.planar_motion();
     const Plane ground = scene.ground();
     std::vector<AffineCorrespondence> acs;
+    acs.reserve(200);
     for (int i = 0; i < 200; ++i) {
       acs.push_back(scene.with_noise(scene.on_plane(T, ground), 0.1 / kFocal, 0.01));
     }

@@ -38,6 +38,7 @@ inline std::vector<AffineCorrespondence> on_one_plane(SceneGenerator& scene, con
 inline std::vector<AffineCorrespondence> turned(SceneGenerator& scene, int count) {
   const double alpha = scene.uniform(-0.3, 0.3);
   std::vector<AffineCorrespondence> acs;
+  acs.reserve(static_cast<std::size_t>(count));
   for (int i = 0; i < count; ++i) acs.push_back(pure_rotation(alpha, scene.image_point()));
   return acs;
 }
