@@ -4,13 +4,13 @@
 //   oneac_bench_consensus LOG POSES [EVERY]     prints Markdown
 //
 // The correspondences are VLFeat's, made once; the tilt is the log's.
+#include "bench_main.h"
 #include "stress.h"
 
 #include "oneac/robust/one_ac_consensus.h"
 
 #include <cstdio>
 #include <cstdlib>
-#include <exception>
 #include <functional>
 #include <vector>
 
@@ -115,10 +115,5 @@ int run(int argc, char** argv) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  try {
-    return run(argc, argv);
-  } catch (const std::exception& error) {
-    std::fprintf(stderr, "oneac_bench_consensus: %s\n", error.what());
-    return 2;
-  }
+  return oneac::guarded("oneac_bench_consensus", &run, argc, argv);
 }

@@ -5,6 +5,7 @@
 //
 // The correspondences are VLFeat's, made once; the tilt is the log's. One seed, the same wrong
 // correspondences for every estimator.
+#include "bench_main.h"
 #include "stress.h"
 
 #include "oneac/base/atomic_file.h"
@@ -16,7 +17,6 @@
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
-#include <exception>
 #include <string>
 #include <utility>
 #include <vector>
@@ -95,10 +95,5 @@ int run(int argc, char** argv) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  try {
-    return run(argc, argv);
-  } catch (const std::exception& error) {
-    std::fprintf(stderr, "oneac_bench_outliers: %s\n", error.what());
-    return 2;
-  }
+  return oneac::guarded("oneac_bench_outliers", &run, argc, argv);
 }

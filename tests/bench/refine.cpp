@@ -5,6 +5,7 @@
 //
 // Fewer inliers: every k-th of a pair's, up to kPhases of the k ways to do that, whose errors are
 // averaged before pairs are compared.
+#include "bench_main.h"
 #include "log_pairs.h"
 
 #include "oneac/base/thread_clock.h"
@@ -17,7 +18,6 @@
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
-#include <exception>
 #include <functional>
 #include <limits>
 #include <stdexcept>
@@ -155,10 +155,5 @@ int run(int argc, char** argv) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  try {
-    return run(argc, argv);
-  } catch (const std::exception& error) {
-    std::fprintf(stderr, "oneac_bench_refine: %s\n", error.what());
-    return 2;
-  }
+  return oneac::guarded("oneac_bench_refine", &run, argc, argv);
 }
