@@ -55,16 +55,16 @@ Evaluation SimulatedDrive::evaluation_;
 
 TEST_F(SimulatedDrive, PairsAreAccurateAndNoneLiesInAWrongBasin) {
   const PairSummary& summary = *evaluation_.pair_summary;
-  EXPECT_LE(summary.rotation->median, 0.04 * kDegree);
-  EXPECT_LE(summary.rotation->mean, 0.12 * kDegree);
-  EXPECT_LE(summary.direction->median, 0.9 * kDegree);
+  EXPECT_LE(summary.rotation->median, 0.005 * kDegree);
+  EXPECT_LE(summary.rotation->mean, 0.01 * kDegree);
+  EXPECT_LE(summary.direction->median, 0.04 * kDegree);
   EXPECT_EQ(summary.bad, 0U);
 }
 
 TEST_F(SimulatedDrive, MostMovingPairsAreInMetres) {
   const PairSummary& summary = *evaluation_.pair_summary;
   EXPECT_GE(static_cast<double>(summary.metric), 0.8 * static_cast<double>(summary.moving));
-  EXPECT_LE(summary.length->median, 0.08);
+  EXPECT_LE(summary.length->median, 0.01);
 }
 
 TEST_F(SimulatedDrive, TheStopIsAStop) {
@@ -113,8 +113,8 @@ TEST_F(SimulatedDrive, TellsThePitchOfTheSprings) {
 
 TEST_F(SimulatedDrive, TheTrajectoryStaysOnTheRoad) {
   ASSERT_TRUE(evaluation_.trajectory.has_value());
-  EXPECT_LE(std::abs(*evaluation_.trajectory->scale_error), 0.05);
-  EXPECT_LE(evaluation_.trajectory->ape.rmse, 0.05 * evaluation_.trajectory->length);
+  EXPECT_LE(std::abs(*evaluation_.trajectory->scale_error), 0.01);
+  EXPECT_LE(evaluation_.trajectory->ape.rmse, 0.002 * evaluation_.trajectory->length);
 }
 
 /// Everything that hurts at once: a ten-second stop, right-angled bends, a 3 % slope, traffic that
