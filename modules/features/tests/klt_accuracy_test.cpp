@@ -37,6 +37,14 @@ struct Errors {
   std::vector<double> affine, point, affine_in_sigmas, point_in_sigmas;
 };
 
+/// What the tracker finds between two views of a texture.
+TrackedPair tracked(const Texture& texture, const View& first, const View& second) {
+  const GreyImage one = render(texture, first), two = render(texture, second);
+  const auto tracker = make_tracker(klt());
+  static_cast<void>(tracker->advance(tracker->prepare(one.view()), {}));
+  return tracker->advance(tracker->prepare(two.view()), {});
+}
+
 /// Tracks one pair per seed and compares with the warp that made it.
 Errors errors_over(std::uint64_t seed, int pairs, double strength) {
   SceneGenerator scene(seed);
@@ -46,10 +54,7 @@ Errors errors_over(std::uint64_t seed, int pairs, double strength) {
     View first, second = random_view(scene, strength);
     first.noise = second.noise;
     second.seed = seed + 1000 + static_cast<std::uint64_t>(i);
-    const GreyImage one = render(texture, first), two = render(texture, second);
-    const auto tracker = make_tracker(klt());
-    static_cast<void>(tracker->advance(tracker->prepare(one.view()), {}));
-    const TrackedPair pair = tracker->advance(tracker->prepare(two.view()), {});
+    const TrackedPair pair = tracked(texture, first, second);
     for (std::size_t k = 0; k < pair.acs.size(); ++k) {
       const auto& ac = pair.acs[k];
       const double affine = (ac.A - second.A).norm(), point = (ac.x2 - second.map(ac.x1)).norm();
@@ -93,10 +98,7 @@ TEST(KltAccuracy, TellsHowFarPerspectiveShiftsAPatch) {
     second.seed = seed;
     first.noise = second.noise = 1.0;
     const Texture texture(seed);
-    const GreyImage one = render(texture, first), two = render(texture, second);
-    const auto tracker = make_tracker(klt());
-    static_cast<void>(tracker->advance(tracker->prepare(one.view()), {}));
-    const TrackedPair pair = tracker->advance(tracker->prepare(two.view()), {});
+    const TrackedPair pair = tracked(texture, first, second);
     for (std::size_t k = 0; k < pair.acs.size(); ++k) {
       const auto& ac = pair.acs[k];
       const Eigen::Vector2d d = ac.x1 - first.centre();
