@@ -172,6 +172,16 @@ TEST_F(Kitti03, IsNearerToItsPosesByAThirdThroughRefinement) {
   EXPECT_LE(refined.trajectory->ape.rmse, 0.7 * bare.trajectory->ape.rmse);
 }
 
+TEST_F(Kitti03, TurnsAwayLessWithAffinitiesThanWithPointsAlone) {
+  const Evaluation both = evaluation_with({});
+  const Evaluation points_alone = evaluation_with({"front_end.perspective=false"});
+  ASSERT_TRUE(both.trajectory && points_alone.trajectory);
+  ASSERT_TRUE(both.trajectory->subsequences && points_alone.trajectory->subsequences);
+  EXPECT_LT(both.trajectory->subsequences->rotation,
+            points_alone.trajectory->subsequences->rotation);
+  EXPECT_LT(both.trajectory->ape.rmse, points_alone.trajectory->ape.rmse);
+}
+
 /// A wide bound does to wrong motions what a small image does: they cost little. With the first
 /// mode that explains the points three pairs of this drive end up to 57 degrees off.
 TEST_F(Kitti03, HasNoWrongBasinWithinThreePixels) {

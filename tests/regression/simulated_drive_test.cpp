@@ -33,16 +33,24 @@ class SimulatedDrive : public ::testing::Test {
   static void SetUpTestSuite() {
     folder_ = std::make_unique<TemporaryFolder>();
     const std::string drive = (folder_->path() / "drive").string();
-    const std::string out = (folder_->path() / "out").string();
     ASSERT_EQ(run_program({ONEAC_PROGRAM, "simulate", "-o", drive}).exit_code, 0);
-    const ProgramResult run =
-        run_program({ONEAC_PROGRAM, "run", drive + "/simulated.rawlog", "-o", out});
-    ASSERT_EQ(run.exit_code, 0) << run.err;
-    rows_ = read_relative_poses(out + "/relative_poses.csv");
-    evaluation_ = evaluate_run(rows_, read_kitti(out + "/trajectory_camera.kitti"),
-                               read_kitti(drive + "/poses.txt"));
+    evaluation_ = evaluation_with({});
+    rows_ = read_relative_poses((folder_->path() / "out/relative_poses.csv").string());
   }
   static void TearDownTestSuite() { folder_.reset(); }
+
+  /// Runs the drive with these settings.
+  static Evaluation evaluation_with(const std::vector<std::string>& settings) {
+    const std::string drive = (folder_->path() / "drive").string();
+    const std::string out = (folder_->path() / "out").string();
+    std::vector<std::string> words = {ONEAC_PROGRAM, "run", drive + "/simulated.rawlog", "-o", out};
+    for (const std::string& setting : settings) words.insert(words.end(), {"--set", setting});
+    const ProgramResult run = run_program(words);
+    EXPECT_EQ(run.exit_code, 0) << run.err;
+    return evaluate_run(read_relative_poses(out + "/relative_poses.csv"),
+                        read_kitti(out + "/trajectory_camera.kitti"),
+                        read_kitti(drive + "/poses.txt"));
+  }
 
   static std::unique_ptr<TemporaryFolder> folder_;
   static std::vector<RelativePoseRow> rows_;
@@ -119,6 +127,17 @@ TEST_F(SimulatedDrive, TheTrajectoryStaysOnTheRoad) {
 
 /// Everything that hurts at once: a ten-second stop, right-angled bends, a 3 % slope, traffic that
 /// crosses, a dark stretch while driving.
+/// With the road's points where their affinities put them, pairs and window hold their direction.
+TEST_F(SimulatedDrive, AffinitiesKeepItFromTurningAway) {
+  const Evaluation points_alone = evaluation_with({"front_end.perspective=false"});
+  ASSERT_TRUE(evaluation_.trajectory && points_alone.trajectory);
+  const TrajectoryErrors& both = *evaluation_.trajectory;
+  ASSERT_TRUE(both.subsequences && points_alone.trajectory->subsequences);
+  EXPECT_LE(both.subsequences->rotation, 0.6 * points_alone.trajectory->subsequences->rotation);
+  EXPECT_LE(evaluation_.pair_summary->direction->mean,
+            0.7 * points_alone.pair_summary->direction->mean);
+}
+
 TEST(HardDrive, IsNeverLostAndKeepsItsMetres) {
   const TemporaryFolder folder;
   const std::string drive = (folder.path() / "drive").string();

@@ -117,7 +117,7 @@ Odometry::TwoView Odometry::estimate(StepTracks& tracks, double focal_px, StepRe
   result.status = StepStatus::kNoMotion;
   if (is_stationary(found.status)) return result;
   result.status = StepStatus::kOk;
-  correct_perspective(found.pose, tracks);
+  if (options_.perspective) correct_perspective(found.pose, tracks);
   if (!options_.refine_enabled) return result;
   const StageTimer timer(step.refine_ms);
   const RefineResult refined =

@@ -40,6 +40,7 @@ struct FrontEndOptions {
   ConsensusOptions consensus;
   GcRansacOptions gc_ransac;
   GroundScaleOptions ground_scale;
+  bool perspective = true;     ///< affinities correct tracked points, see correct_perspective()
   bool refine_enabled = true;  ///< two-view bundle adjustment after the consensus
   RefineOptions refine;
   WindowOptions window;
@@ -67,6 +68,7 @@ void describe(Visitor&& visit, FrontEndOptions& o) {
   visit("estimator", o.estimator, "name", "consensus, gc_ransac, or default: the method's own");
   visit("camera_height", o.camera_height, "m", "above the road; 0: from the log if at least 0.5 m");
   visit("max_hold", o.max_hold, "s", "a step without scale keeps the last speed for so long");
+  visit("perspective", o.perspective, "bool", "affinities correct tracked points for perspective");
   visit("refine_enabled", o.refine_enabled, "bool", "two-view bundle adjustment of each pair");
   visit.section("tilt", o.tilt);
   visit.section("features", o.features);
