@@ -33,18 +33,21 @@ is_slow() {
 fuzz() {
   local found="build/fuzz/found/$1" program="build/fuzz/tests/fuzz/fuzz_$1"
   mkdir -p "$found"
+  local TIMEFORMAT='cpu_seconds: %U'
   # 1 GB is promised; the sanitizers take memory of their own.
-  if ! "$program" -max_total_time="$seconds" -timeout=600 -report_slow_units=10 \
+  if ! { time "$program" -max_total_time="$seconds" -timeout=600 -report_slow_units=10 \
     -seed="${ONEAC_FUZZ_SEED:-0}" -runs="${ONEAC_FUZZ_RUNS:--1}" -malloc_limit_mb=1024 \
     -rss_limit_mb=2560 -max_len=16384 -print_final_stats=1 -artifact_prefix="$found/finding-" \
-    "$found" "tests/fuzz/corpus/$1" >"$found.log" 2>&1 || is_slow "$program" "$found"; then
+    "$found" "tests/fuzz/corpus/$1"; } >"$found.log" 2>&1 || is_slow "$program" "$found"; then
     tail -n 60 "$found.log"
     echo "fuzz: $1 has a finding, see build/fuzz/found/$1" >&2
     return 1
   fi
   awk -v target="$1" '/number_of_executed_units/ { runs = $2 } /cov:/ { cov = $4 }
-    /peak_rss_mb/ { mb = $2 }
-    END { printf "fuzz: %-15s %9d runs, coverage %5d, %4d MB\n", target, runs, cov, mb }' \
+    /peak_rss_mb/ { mb = $2 } /^cpu_seconds/ { cpu = $2 }
+    END {
+      printf "fuzz: %-15s %5d s of CPU, %9d runs, coverage %5d, %4d MB\n", target, cpu, runs, cov, mb
+    }' \
     "$found.log"
 }
 export -f fuzz is_slow
