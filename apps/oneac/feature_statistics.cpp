@@ -19,6 +19,11 @@ int cell(double u, int size, int cells) {
   return std::clamp(static_cast<int>(u * cells / size), 0, cells - 1);
 }
 
+std::size_t region(int row, int column) {
+  constexpr auto kColumns = static_cast<std::size_t>(FeatureStatistics::kColumns);
+  return static_cast<std::size_t>(row) * kColumns + static_cast<std::size_t>(column);
+}
+
 template <class Field>
 std::vector<double> values_of(const FeatureStatistics& statistics, Field&& field) {
   std::vector<double> values;
@@ -95,13 +100,13 @@ std::vector<double> FeatureStatistics::judge(const RunMoment& moment, const Step
     residuals.push_back(residual);
     const int row = cell(ac_px.x2.y(), camera.height, kRows);
     const int column = cell(ac_px.x2.x(), camera.width, kColumns);
-    residuals_[static_cast<std::size_t>(row * kColumns + column)].push_back(residual);
+    residuals_[region(row, column)].push_back(residual);
   }
   return residuals;
 }
 
 const std::vector<double>& FeatureStatistics::residuals(int row, int column) const {
-  return residuals_.at(static_cast<std::size_t>(row * kColumns + column));
+  return residuals_.at(region(row, column));
 }
 
 std::optional<double> FeatureStatistics::median_residual() const {

@@ -51,85 +51,117 @@ class SpeedFeeder {
   std::size_t next_ = 0;
 };
 
-CameraFrame without_image(const CameraFrame& frame) {
-  CameraFrame copy;
-  copy.T_vehicle_cam = frame.T_vehicle_cam;
-  copy.camera = frame.camera;
-  return copy;
-}
+/// The loop of a drive: images in order of time, prepared on worker threads, then processed.
+class Drive {
+ public:
+  Drive(const RunOptions& options, const RunObserver& observer)
+      : options_(options),
+        observer_(observer),
+        source_(source_options(options)),
+        front_end_(front_end_options(options)),
+        sensors_(read_ahead(options)),
+        progress_(options.run.progress && !options.run.quiet) {
+    feed_accelerations();
+  }
 
-void remember_first(const CameraFrame& frame, const FrontEnd& front_end, DriveRecord& record) {
-  record.T_vehicle_cam = frame.T_vehicle_cam;
-  record.camera = frame.camera;
-  record.given_tilt = front_end.tilt();
-}
+  DriveRecord run() && {
+    const auto next = [this] { return this->next(); };
+    const auto prepare = [this](const FrameTicket& ticket) { return this->prepare(ticket); };
+    const auto process = [this](Prepared prepared) { return this->process(std::move(prepared)); };
+    try {
+      ordered_pipeline(next, prepare, process, options_.run.threads);
+    } catch (const InputError& error) {
+      record_.failure = error.what();
+    }
+    finish();
+    return std::move(record_);
+  }
+
+ private:
+  static FrontEndOptions front_end_options(const RunOptions& options) {
+    FrontEndOptions front_end = options.front_end;
+    front_end.seed = static_cast<std::size_t>(options.run.seed);
+    return front_end;
+  }
+
+  void feed_accelerations() {
+    for (const ImuSample& sample : sensors_.imu) {
+      if (!sample.acceleration) continue;
+      const auto yaw_rate =
+          sample.angular_rate ? std::optional(sample.angular_rate->z()) : std::nullopt;
+      front_end_.add_acceleration(sample.time_s, *sample.acceleration, yaw_rate);
+    }
+  }
+
+  std::optional<FrameTicket> next() {
+    while (!interrupted()) {
+      auto ticket = source_.next();
+      if (!ticket || ticket->time_s > last_time_) {
+        if (ticket) last_time_ = ticket->time_s;
+        return ticket;
+      }
+      ++record_.out_of_order;
+    }
+    return std::nullopt;
+  }
+
+  /// Called by several threads at once.
+  [[nodiscard]] Prepared prepare(const FrameTicket& ticket) const {
+    CameraFrame frame = source_.load(ticket);
+    const double decode_ms = frame.decode_ms;
+    return Prepared{front_end_.prepare(std::move(frame)), decode_ms};
+  }
+
+  /// @return whether to go on
+  bool process(Prepared prepared) {
+    const CameraFrame& frame = prepared.frame.frame;
+    const bool is_first = record_.frames.empty();
+    if (is_first) remember_mounting(frame);
+    speeds_.feed_until(frame.time_s, front_end_);
+    const GreyImage image = observer_ ? frame.image : GreyImage{};
+    FrameResult result = front_end_.process(std::move(prepared.frame));
+    Settled settled = std::exchange(result.settled, {});
+    record_.frames.push_back(std::move(result));
+    record_.take(std::move(settled));
+    record_.decode_ms.push_back(prepared.decode_ms);
+    record_.tilt = front_end_.tilt();
+    if (is_first) record_.given_tilt = record_.tilt;
+    if (observer_) observer_({image, front_end_.correspondences(), record_});
+    progress_.update(source_.progress(), record_.frames.size());
+    return !interrupted();
+  }
+
+  void remember_mounting(const CameraFrame& first) {
+    record_.T_vehicle_cam = first.T_vehicle_cam;
+    record_.camera = first.camera;
+  }
+
+  void finish() {
+    record_.take(front_end_.finish());
+    record_.interrupted = interrupted();
+    if (!record_.interrupted) source_.finish();
+    record_.source = source_.report();
+    record_.tilt = front_end_.tilt();
+    record_.tilt_belief = front_end_.tilt_belief();
+    record_.scale_uncertainty = front_end_.scale_uncertainty();
+    record_.camera_height = front_end_.camera_height();
+  }
+
+  const RunOptions& options_;
+  const RunObserver& observer_;
+  RawlogSource source_;
+  FrontEnd front_end_;
+  const VehicleReference sensors_;
+  SpeedFeeder speeds_{sensors_.gps};
+  ProgressBar progress_;
+  double last_time_ = -std::numeric_limits<double>::infinity();
+  DriveRecord record_;
+};
 
 }  // namespace
 
 DriveRecord run_drive(const RunOptions& options, const RunObserver& observer) {
-  RawlogSource source(source_options(options));
-  FrontEndOptions front_end_options = options.front_end;
-  front_end_options.seed = static_cast<std::size_t>(options.run.seed);
-  FrontEnd front_end(front_end_options);
-  const VehicleReference sensors = read_ahead(options);
-  for (const ImuSample& sample : sensors.imu) {
-    if (!sample.acceleration) continue;
-    const auto yaw_rate =
-        sample.angular_rate ? std::optional(sample.angular_rate->z()) : std::nullopt;
-    front_end.add_acceleration(sample.time_s, *sample.acceleration, yaw_rate);
-  }
-  SpeedFeeder speeds(sensors.gps);
-  DriveRecord record;
-  {
-    ProgressBar progress(options.run.progress && !options.run.quiet);
-    double last_time = -std::numeric_limits<double>::infinity();
-    const auto next = [&]() -> std::optional<FrameTicket> {
-      while (!interrupted()) {
-        auto ticket = source.next();
-        if (!ticket || ticket->time_s > last_time) {
-          if (ticket) last_time = ticket->time_s;
-          return ticket;
-        }
-        ++record.out_of_order;
-      }
-      return std::nullopt;
-    };
-    const auto prepare = [&](const FrameTicket& ticket) {
-      CameraFrame frame = source.load(ticket);
-      const double decode_ms = frame.decode_ms;
-      return Prepared{front_end.prepare(std::move(frame)), decode_ms};
-    };
-    const auto process = [&](Prepared prepared) {
-      const CameraFrame first =
-          record.frames.empty() ? without_image(prepared.frame.frame) : CameraFrame{};
-      speeds.feed_until(prepared.frame.frame.time_s, front_end);
-      const GreyImage image = observer ? prepared.frame.frame.image : GreyImage{};
-      FrameResult result = front_end.process(std::move(prepared.frame));
-      Settled settled = std::exchange(result.settled, {});
-      record.frames.push_back(std::move(result));
-      record.take(std::move(settled));
-      record.decode_ms.push_back(prepared.decode_ms);
-      if (record.frames.size() == 1) remember_first(first, front_end, record);
-      record.tilt = front_end.tilt();
-      if (observer) observer({image, front_end.correspondences(), record});
-      progress.update(source.progress(), record.frames.size());
-      return !interrupted();
-    };
-    try {
-      ordered_pipeline(next, prepare, process, options.run.threads);
-    } catch (const InputError& error) {
-      record.failure = error.what();
-    }
-  }
-  record.take(front_end.finish());
-  record.interrupted = interrupted();
-  if (!record.interrupted) source.finish();
-  record.source = source.report();
-  record.tilt = front_end.tilt();
-  record.tilt_belief = front_end.tilt_belief();
-  record.scale_uncertainty = front_end.scale_uncertainty();
-  record.camera_height = front_end.camera_height();
-  return record;
+  return Drive(options, observer).run();
 }
 
 }  // namespace oneac::app

@@ -60,11 +60,15 @@ void add_table(HtmlPage& page, const std::string& caption, const Json& json) {
   if (!rows.empty()) page.table(caption, rows);
 }
 
+bool is_empty_text(const Json& value) {
+  return value.is_string() && value.get_ref<const std::string&>().empty();
+}
+
 /// Scalars first, then a table per object; timing has its own section.
 void add_tables(HtmlPage& page, const Json& summary) {
   Json scalars = Json::object();
   for (const auto& [key, value] : summary.items()) {
-    if (!value.is_structured() && value != "") scalars[key] = value;
+    if (!value.is_structured() && !is_empty_text(value)) scalars[key] = value;
   }
   page.begin_group();
   add_table(page, "run", scalars);

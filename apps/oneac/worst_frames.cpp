@@ -154,6 +154,7 @@ std::vector<WorstFrame> worst_frames(const DriveRecord& record, const RunEvaluat
     return "the images did not carry the step, " + inliers_text(step(i));
   });
   std::vector<std::size_t> judged;
+  judged.reserve(errors.size());
   for (const auto& [frame, error] : errors) judged.push_back(frame);
   chooser.take(
       judged, count / 3,

@@ -63,7 +63,7 @@ void LogRun::run(const Methods& methods, const Shard& shard, Journal& journal, s
   for_pairs(
       wanted,
       [&](const StreamPair& pair, const PairAcs& acs) { return estimate(pair, acs, methods); },
-      [&](PairRecord record) {
+      [&](const PairRecord& record) {
         journal.add(record);
         ++done;
         hooks_.progress(

@@ -80,7 +80,8 @@ std::vector<CompareMethod> plan_methods(const std::vector<std::string>& initiali
     const std::string name = short_name(asked, known);
     const std::vector<std::string> own = make_initialiser(name)->estimators();
     for (const std::string& estimator : chosen_estimators(own, estimators)) {
-      const std::string label = estimator == own.front() ? name : name + "+" + estimator;
+      std::string label = name;
+      if (estimator != own.front()) label.append("+").append(estimator);
       const bool twice = std::any_of(methods.begin(), methods.end(),
                                      [&](const CompareMethod& m) { return m.label == label; });
       if (!twice) methods.push_back({label, name, estimator});

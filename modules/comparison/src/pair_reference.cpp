@@ -19,6 +19,7 @@ std::string find_poses_beside(const fs::path& log) {
 PairReference::PairReference(Trajectory poses, const std::vector<ImageMoment>& images)
     : poses_(std::move(poses)) {
   std::vector<double> times;
+  times.reserve(images.size());
   for (const ImageMoment& image : images) times.push_back(image.time_s);
   tolerance_ = time_tolerance(times);
 }

@@ -71,10 +71,12 @@ std::string decade_text(double decade, bool exponent) {
 
 std::string grid(const CdfPlot& plot, const Axis& axis) {
   std::string svg;
-  for (double decade = axis.low; decade <= axis.high + 0.5; decade += 1.0) {
+  const int decades = static_cast<int>(std::lround(axis.high - axis.low));
+  for (int i = 0; i <= decades; ++i) {
+    const double decade = axis.low + i;
     svg += line("grid", axis.u(decade), v(0.0), axis.u(decade), v(1.0));
     svg += text(axis.u(decade), v(0.0) + 16.0, decade_text(decade, plot.show_exponent), "middle");
-    for (int digit = 2; digit < 10 && decade < axis.high - 0.5; ++digit) {
+    for (int digit = 2; digit < 10 && i < decades; ++digit) {
       const double u = axis.u(decade + std::log10(digit));
       svg += line("fine", u, v(0.0), u, v(1.0));
     }

@@ -30,7 +30,7 @@ void load_plugin(const fs::path& library) {
 fs::path find_plugin(const std::string& name) {
   const fs::path beside = fs::read_symlink("/proc/self/exe").parent_path();
   for (const fs::path& folder : {beside, beside.parent_path() / "lib" / "oneac"}) {
-    const fs::path candidate = folder / (name + ".so");
+    fs::path candidate = folder / (name + ".so");
     if (fs::is_regular_file(candidate)) return candidate;
   }
   throw InputError(name + ".so", "is not beside the program nor in ../lib/oneac",
