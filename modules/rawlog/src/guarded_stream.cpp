@@ -66,9 +66,10 @@ size_t GuardedStream::Read(void* buffer, size_t count) {
   check_depth();
   auto* bytes = static_cast<std::uint8_t*>(buffer);
   if (!substitute_.empty()) return read_substitute(bytes, count);
-  const std::size_t done = stream_.Read(buffer, count);
-  if (done == count) follow(bytes, count);
-  return done;
+  // MRPT takes three bytes of a number at the end of a file for the number: it gets none.
+  if (stream_.Read(buffer, count) < count) return 0;
+  follow(bytes, count);
+  return count;
 }
 
 size_t GuardedStream::read_substitute(std::uint8_t* buffer, size_t count) {

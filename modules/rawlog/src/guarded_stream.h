@@ -24,6 +24,7 @@ namespace oneac {
 /// - Images are taken out: MRPT reads an external image whose name is a number, see
 ///   take_images().
 /// - An object of an abstract class ends in an exception: MRPT prints a line of its own about it.
+/// - A value of which the file has but a part is not there.
 /// - Objects nested deeper than kDeepestStack bytes of stack end in an exception.
 class GuardedStream : public mrpt::io::CStream {
  public:

@@ -70,6 +70,17 @@ TEST_F(Guarded, ALengthBeyondTheFileTakesNoMemory) {
   EXPECT_LT(peak_mb(), before + 50U);
 }
 
+// Three of the four bytes of the number of actions.
+TEST_F(Guarded, ACountOfWhichTheFileHasAPartTakesNoMemory) {
+  const std::string name = "CActionCollection";
+  const std::string shell = static_cast<char>(0x80U | name.size()) + name + '\0';
+  const std::size_t before = peak_mb();
+  const std::string damage =
+      damage_of(test::packed({test::rmc(0, 1, 1)}) + shell + std::string({'*', 0, '['}));
+  EXPECT_NE(damage.find("record 1"), std::string::npos) << damage;
+  EXPECT_LT(peak_mb(), before + 50U);
+}
+
 // Three numbers in a row: the camera's width, the length of its name, the name's letters.
 TEST_F(Guarded, ALengthThatLooksLikeALabelTakesNoMemory) {
   auto image = test::stored_image("CAM", 0, test::ramp(0));
