@@ -37,7 +37,7 @@ Odometry::Odometry(const FrontEndOptions& options, RelativePoseInitialiser::Ptr 
 FrameResult Odometry::start(const CameraFrame& frame) {
   R_vehicle_cam_ = frame.T_vehicle_cam.linear();
   tilt_.emplace(given_tilt(), options_.tilt);
-  pitch_.emplace(mounting_pitch());
+  road_tilt_.emplace(tilt_->belief());
   const bool by_height = options_.scale.source == "height";
   camera_height_ = by_height ? options_.camera_height : 0.0;
   const double mount_height = by_height ? frame.T_vehicle_cam.translation().z() : 0.0;

@@ -9,7 +9,7 @@
 #include "oneac/frontend/frame_result.h"
 #include "oneac/frontend/front_end_options.h"
 #include "oneac/frontend/scale_filter.h"
-#include "oneac/frontend/suspension_pitch.h"
+#include "oneac/frontend/suspension_tilt.h"
 #include "oneac/frontend/tilt_estimator.h"
 #include "oneac/geometry/camera_frame.h"
 #include "oneac/initialisers/relative_pose_initialiser.h"
@@ -69,10 +69,10 @@ class Odometry {
   [[nodiscard]] std::optional<ScaleMeasurement> measure_by_speed();
   [[nodiscard]] Tilt given_tilt() const;
   void rescale(double factor);
-  [[nodiscard]] AngleBelief mounting_pitch() const;
   void follow_tilt(const StepResult& step);
   void tell_tilt(FrameResult& result) const;
-  /// R_level_cam of the newest frame, springs included, and of an earlier one.
+  /// R_level_cam of the newest frame, pitch on the springs included, and of an earlier one. The
+  /// roll is the mounting's: that of the springs is felt by its effect on the pitch only.
   [[nodiscard]] Eigen::Matrix3d leveling() const;
   [[nodiscard]] Eigen::Matrix3d leveling_before(const RelativePose& T_now_before) const;
   [[nodiscard]] GroundScaleOptions ground_scale_options() const;
@@ -80,7 +80,7 @@ class Odometry {
   FrontEndOptions options_;
   RelativePoseInitialiser::Ptr initialiser_;
   std::optional<TiltEstimator> tilt_;
-  std::optional<SuspensionPitch> pitch_;
+  std::optional<SuspensionTilt> road_tilt_;
   ScaleFilter scale_;
   double camera_height_ = 0.0;
   Eigen::Matrix3d R_vehicle_cam_ = Eigen::Matrix3d::Identity();

@@ -1,5 +1,5 @@
 #include "odometry.h"
-#include "pitch_step.h"
+#include "tilt_step.h"
 
 #include <cmath>
 #include <string>
@@ -35,38 +35,35 @@ Tilt Odometry::given_tilt() const {
           log.roll_right + trust * (felt.roll_right - log.roll_right)};
 }
 
-AngleBelief Odometry::mounting_pitch() const {
-  const TiltBelief& belief = tilt_->belief();
-  return {belief.tilt.pitch_up, belief.pitch_sigma};
-}
-
 void Odometry::follow_tilt(const StepResult& step) {
   if (step.status == StepStatus::kPredicted) {
-    pitch_->lose(mounting_pitch());
+    road_tilt_->lose(tilt_->belief());
     return;
   }
-  pitch_->add_step(pitch_step(step, tilt_->belief()));
+  road_tilt_->add_step(tilt_step(step), tilt_->belief());
   if (step.status == StepStatus::kOk) tilt_->add_step(step.pose);
 }
 
 void Odometry::tell_tilt(FrameResult& result) const {
   result.tilt = tilt_->belief();
-  const AngleBelief& pitch = pitch_->pitch();
-  result.suspension = {pitch.angle - result.tilt.tilt.pitch_up, pitch.sigma};
+  const TiltBelief against_road = road_tilt_->tilt();
+  result.suspension = {against_road.tilt.pitch_up - result.tilt.tilt.pitch_up,
+                       against_road.pitch_sigma};
 }
 
 Eigen::Matrix3d Odometry::leveling() const {
-  return leveling_rotation({pitch_->pitch().angle, tilt_->tilt().roll_right});
+  return leveling_rotation({road_tilt_->tilt().tilt.pitch_up, tilt_->tilt().roll_right});
 }
 
 Eigen::Matrix3d Odometry::leveling_before(const RelativePose& T_now_before) const {
-  const double turn = pitch_turn(T_now_before, tilt_->tilt());
-  return leveling_rotation({pitch_->pitch().angle - turn, tilt_->tilt().roll_right});
+  const Tilt before = road_tilt_->tilt_before(T_now_before.R);
+  return leveling_rotation({before.pitch_up, tilt_->tilt().roll_right});
 }
 
 GroundScaleOptions Odometry::ground_scale_options() const {
   GroundScaleOptions options = options_.ground_scale;
-  options.plane_tilt_deg = std::hypot(options.plane_tilt_deg, pitch_->pitch().sigma / kDegree);
+  const double pitch_sigma = road_tilt_->tilt().pitch_sigma;
+  options.plane_tilt_deg = std::hypot(options.plane_tilt_deg, pitch_sigma / kDegree);
   options.cross_fall_deg = std::hypot(options.cross_fall_deg, tilt_->belief().roll_sigma / kDegree);
   return options;
 }

@@ -131,8 +131,7 @@ double TiltEstimator::roll_correction(double& sigma) const {
 
 Tilt tilt_from_gravity(const Eigen::Matrix3d& R_vehicle_cam, const Eigen::Vector3d& acceleration) {
   // At rest the accelerometer feels the ground push upwards.
-  const Eigen::Vector3d down = R_vehicle_cam.transpose() * -acceleration.normalized();
-  return {-std::asin(std::clamp(down.z(), -1.0, 1.0)), std::atan2(down.x(), down.y())};
+  return tilt_from_down(R_vehicle_cam.transpose() * -acceleration);
 }
 
 }  // namespace oneac

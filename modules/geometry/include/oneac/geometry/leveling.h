@@ -17,6 +17,9 @@ struct Tilt {
 /// gravity): R_x(pitch_up) R_z(roll_right).
 [[nodiscard]] Eigen::Matrix3d leveling_rotation(const Tilt& tilt);
 
+/// The tilt of a camera that sees this direction, of any length, point straight down.
+[[nodiscard]] Tilt tilt_from_down(const Eigen::Vector3d& down);
+
 /// The tilt of a camera whose frame is seen by the vehicle (X forward, Y left, Z up) as
 /// R_vehicle_cam, camera axes X right, Y down, Z forward.
 [[nodiscard]] Tilt tilt_from_mounting(const Eigen::Matrix3d& R_vehicle_cam);

@@ -1,0 +1,100 @@
+#include "oneac/frontend/suspension_tilt.h"
+
+#include <Eigen/Dense>
+
+#include <algorithm>
+#include <cmath>
+
+namespace oneac {
+namespace {
+
+constexpr double kDegree = 3.14159265358979323846 / 180.0;
+// [rad] pitch that braking and speeding up give a car on its springs, 1σ: 3° per g at 0.3 g.
+constexpr double kSprings = 1.0 * kDegree;
+// [rad] roll that bends give it, 1σ: 5° per g at 0.2 g, and how long it lasts [s].
+constexpr double kLean = 1.0 * kDegree;
+constexpr double kBend = 2.0;
+// [rad] 1σ of a turn between two images, about one axis.
+constexpr double kTurn = 0.03 * kDegree;
+// [rad/√m] the slope of a road wanders by 1° (1.7 %) in 100 m.
+constexpr double kSlopeWalk = 0.1 * kDegree;
+// cos 25°: beyond it the car manoeuvres.
+constexpr double kMainlyForward = 0.9;
+// [σ] a measurement farther off counts as if it were so far off: a bump is no slope.
+constexpr double kFarthest = 3.0;
+
+double squared(double value) {
+  return value * value;
+}
+
+Eigen::Vector3d road_normal(const Tilt& tilt) {
+  return leveling_rotation(tilt).row(1).transpose();
+}
+
+}  // namespace
+
+SuspensionTilt::SuspensionTilt(const TiltBelief& mounting) {
+  lose(mounting);
+}
+
+void SuspensionTilt::lose(const TiltBelief& mounting) {
+  tilt_ = mounting.tilt;
+  covariance_ = Eigen::Vector2d(squared(mounting.pitch_sigma) + squared(kSprings),
+                                squared(mounting.roll_sigma) + squared(kLean))
+                    .asDiagonal();
+}
+
+TiltBelief SuspensionTilt::tilt() const {
+  return {tilt_, std::sqrt(covariance_(0, 0)), std::sqrt(covariance_(1, 1))};
+}
+
+Tilt SuspensionTilt::tilt_before(const Eigen::Matrix3d& R_now_before) const {
+  return tilt_from_down(R_now_before.transpose() * road_normal(tilt_));
+}
+
+void SuspensionTilt::add_step(const TiltStep& step, const TiltBelief& mounting) {
+  if (!step.R_2_1.allFinite()) return;
+  turn(step);
+  if (step.travel) measure_travel(*step.travel);
+  hold_roll(step.seconds, mounting);
+}
+
+void SuspensionTilt::turn(const TiltStep& step) {
+  const Eigen::Matrix3d before = leveling_rotation(tilt_);
+  tilt_ = tilt_from_down(step.R_2_1 * road_normal(tilt_));
+  // An error of the normal stays where it is in the world: the levelled camera turns under it.
+  const Eigen::Matrix3d yawed = leveling_rotation(tilt_) * step.R_2_1 * before.transpose();
+  Eigen::Matrix2d turned;
+  turned << yawed(0, 0), yawed(0, 2), yawed(2, 0), yawed(2, 2);
+  covariance_ = turned * covariance_ * turned.transpose();
+  covariance_.diagonal().array() += squared(kTurn) + squared(kSlopeWalk) * step.length;
+}
+
+void SuspensionTilt::measure_travel(const TiltStep::Travel& travel) {
+  const Eigen::Vector3d along = leveling_rotation(tilt_) * travel.direction;
+  if (!(std::abs(along.z()) > kMainlyForward)) return;
+  // A normal that is pitched up or rolled right too far has the travel rise or fall, by so much.
+  measure({-along.z(), along.x()}, std::asin(std::clamp(along.y(), -1.0, 1.0)), travel.sigma);
+}
+
+void SuspensionTilt::hold_roll(double seconds, const TiltBelief& mounting) {
+  if (!(seconds > 0.0)) return;
+  // One independent sight of the roll in 2 kBend, of a roll that varies by this.
+  const double sigma = std::hypot(mounting.roll_sigma, kLean) * std::sqrt(2.0 * kBend / seconds);
+  measure({0.0, 1.0}, tilt_.roll_right - mounting.tilt.roll_right, sigma);
+}
+
+/// @param off  row · (error of the tilt) + noise
+void SuspensionTilt::measure(const Eigen::Vector2d& row, double off, double sigma) {
+  const double variance = row.dot(covariance_ * row) + squared(sigma);
+  if (!std::isfinite(variance) || !std::isfinite(off) || !(sigma > 0.0)) return;
+  const double farthest = kFarthest * std::sqrt(variance);
+  const Eigen::Vector2d gain = covariance_ * row / variance;
+  const Eigen::Vector2d correction = gain * std::clamp(off, -farthest, farthest);
+  tilt_.pitch_up -= correction(0);
+  tilt_.roll_right -= correction(1);
+  const Eigen::Matrix2d kept = Eigen::Matrix2d::Identity() - gain * row.transpose();
+  covariance_ = kept * covariance_ * kept.transpose() + squared(sigma) * gain * gain.transpose();
+}
+
+}  // namespace oneac
