@@ -143,6 +143,7 @@ void Odometry::follow(const StepTracks& tracks, const TwoView& found, StepResult
   if (carried && carried->length > 0.0) {
     step.length = carried->length;
     step.length_sigma = carried->sigma;
+    carried_variance_ += carried->sigma * carried->sigma;
     step.landmarks = carried->support;
   } else if (map_->keyframes().size() > 1) {
     restart(tracks, found);
@@ -153,6 +154,7 @@ void Odometry::restart(const StepTracks& tracks, const TwoView& found) {
   settling_.settle_all(*map_, pending_);
   ++segment_;
   scale_.lose();
+  carried_variance_ = 0.0;
   map_->start(frames_ - 1, T_cam_map_);
   const std::size_t id = map_->keyframes().back().id;
   settling_.add_keyframe(id, {previous_.index, previous_.time_s, segment_, false, 0.0});
@@ -207,7 +209,7 @@ void Odometry::update_map(const CameraFrame& frame, const StepTracks& tracks, St
     map_->add_keyframe(frames_, T_cam_map_);
     keyframe_time_ = frame.time_s;
     static_cast<void>(map_->refine(tilt_->leveling()));
-    settling_.drift(scale_.drift(map_->newest_way()));
+    settling_.drift(scale_.drift(map_->newest_way(), std::exchange(carried_variance_, 0.0)));
     measure_scale(tracks, frame.camera.focal_px(), step);
     T_cam_map_ = map_->keyframes().back().T_cam_map;
     result.keyframe = map_->keyframes().back().id;

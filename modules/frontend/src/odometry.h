@@ -95,6 +95,7 @@ class Odometry {
   std::size_t segment_ = 0;
   bool lost_ = false;               ///< the last step was not carried by its images
   double keyframe_time_ = 0.0;      ///< [s] of the last keyframe
+  double carried_variance_ = 0.0;   ///< relative, of the lengths that landmarks carried since then
   RelativePose T_cam_map_;          ///< newest frame; the map's frame is the first camera's
   RelativePose last_motion_;        ///< T_2_1 of the last step, length as used
   double last_metric_speed_ = 0.0;  ///< [m/s]

@@ -11,6 +11,9 @@ constexpr int kPatience = 5;
 // [m] of way over which the road's error changes. Most weight has the road 5 to 15 m ahead, so a
 // stretch of it stays in view for 10 m, and halfway half of what is seen is new.
 constexpr double kStretch = 5.0;
+// [steps] that share a landmark: what is wrong with its depth is wrong in all of them, so that
+// their variances add up so many times over.
+constexpr double kSteps = 16.0;
 
 }  // namespace
 
@@ -19,9 +22,9 @@ ScaleFilter::ScaleFilter(const ScaleOptions& options)
       lasting_variance_(
           options.source == "height" ? options.road_uncertainty * options.road_uncertainty : 0.0) {}
 
-double ScaleFilter::drift(double way) {
+double ScaleFilter::drift(double way, double carried_variance) {
   const double before = variance_;
-  variance_ += options_.map_drift * options_.map_drift;
+  variance_ += options_.map_drift * options_.map_drift + kSteps * carried_variance;
   const double kept = std::exp(-std::abs(way) / kStretch);
   error_ *= kept;
   error_variance_ = lasting_variance_ + kept * kept * (error_variance_ - lasting_variance_);

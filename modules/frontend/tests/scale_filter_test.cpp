@@ -11,7 +11,7 @@ namespace {
 
 TEST(ScaleFilter, IsNotMetricBeforeTheFirstMeasurement) {
   ScaleFilter filter{ScaleOptions{}};
-  filter.drift(1.0);
+  filter.drift(1.0, 0.0);
   EXPECT_FALSE(filter.is_metric());
   EXPECT_TRUE(std::isinf(filter.uncertainty()));
 }
@@ -43,7 +43,7 @@ Follow follow(const ScaleOptions& options, double bumps, unsigned seed) {
   for (int i = 0; i < kKeyframes; ++i) {
     truth_over_map *= std::exp(random.normal(options.map_drift));
     bump = kept * bump + random.normal(bumps * std::sqrt(1.0 - kept * kept));
-    filter.drift(kWay);
+    filter.drift(kWay, 0.0);
     truth_over_map /=
         filter.correct(truth_over_map * std::exp(bump + random.normal(kSigma)), kSigma);
     if (i >= 50) result.rms += std::pow(std::log(truth_over_map), 2) / (kKeyframes - 50);
@@ -56,6 +56,7 @@ Follow follow(const ScaleOptions& options, double bumps, unsigned seed) {
 TEST(ScaleFilter, AveragesNoisyMeasurementsOfADriftingMap) {
   ScaleOptions options;
   options.source = "stereo";
+  options.map_drift = 0.01;
   const Follow followed = follow(options, 0.0, 5);
   EXPECT_LT(followed.rms, 0.9 * 0.01);  // the drift alone allows 0.8 of one measurement's error
   EXPECT_NEAR(followed.rms, followed.uncertainty, 0.1 * followed.uncertainty);
@@ -90,18 +91,29 @@ TEST(ScaleFilter, BelievesWhatIsSaidAgainAndAgain) {
 TEST(ScaleFilter, GrowsUncertainWithoutMeasurements) {
   ScaleFilter filter{ScaleOptions{}};
   static_cast<void>(filter.correct(1.0, 0.02));
-  for (int i = 0; i < 200; ++i) filter.drift(1.0);
+  for (int i = 0; i < 500; ++i) filter.drift(1.0, 0.0);
   EXPECT_FALSE(filter.is_metric());
+}
+
+TEST(ScaleFilter, TrustsAMapWithPoorLandmarksLess) {
+  const auto factor = [](double carried_sigma) {
+    ScaleFilter filter{ScaleOptions{}};
+    static_cast<void>(filter.correct(1.0, 0.02));
+    for (int i = 0; i < 5; ++i) filter.drift(5.0, carried_sigma * carried_sigma);
+    return filter.correct(1.05, 0.02);
+  };
+  EXPECT_LT(factor(0.0007), 1.03);  // a straight road on KITTI
+  EXPECT_GT(factor(0.005), 1.035);  // a tight bend at walking pace
 }
 
 TEST(ScaleFilter, SaysHowFarMeasurementsSpeakForTheScaleBefore) {
   ScaleOptions options;
   options.source = "stereo";  // no error that lasts
   ScaleFilter filter(options);
-  EXPECT_EQ(filter.drift(1.0), 1.0);  // nothing known: the first measurement is for all
+  EXPECT_EQ(filter.drift(1.0, 0.0), 1.0);  // nothing known: the first measurement is for all
   static_cast<void>(filter.correct(1.0, options.map_drift));
-  EXPECT_NEAR(filter.drift(1.0), 0.5, 1e-12);
-  EXPECT_NEAR(filter.drift(1.0), 2.0 / 3.0, 1e-12);
+  EXPECT_NEAR(filter.drift(1.0, 0.0), 0.5, 1e-12);
+  EXPECT_NEAR(filter.drift(1.0, 0.0), 2.0 / 3.0, 1e-12);
 }
 
 TEST(ScaleFilter, IgnoresNumbersThatAreNone) {

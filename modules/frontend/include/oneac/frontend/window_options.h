@@ -42,8 +42,8 @@ struct ScaleOptions {
   /// "height": road and camera height; "stereo": the right images' depths; "gps": speeds given to
   /// FrontEnd; "none"
   std::string source = "height";
-  double map_drift = 0.01;         ///< [-] 1σ of the map's scale gained from keyframe to keyframe:
-                                   ///< a hundred landmarks whose depths are 10 % off
+  double map_drift = 0.003;        ///< [-] 1σ of the map's scale gained from keyframe to keyframe,
+                                   ///< beside that of the lengths its landmarks carry
   double road_uncertainty = 0.02;  ///< [-] 1σ of the height above the road ahead: 3 cm of 1.65 m
                                    ///< for its unevenness and the body on its springs
   double max_uncertainty = 0.06;   ///< [-] relative 1σ of the scale that counts as metric
@@ -57,7 +57,8 @@ template <class Visitor>
 void describe(Visitor&& visit, ScaleOptions& o) {
   visit("source", o.source, "name",
         "height: road and camera height; stereo: right images; gps: speed; none");
-  visit("map_drift", o.map_drift, "-", "1-sigma of the map's scale, keyframe to keyframe");
+  visit("map_drift", o.map_drift, "-",
+        "1-sigma of the map's scale, keyframe to keyframe, beside its landmarks' own");
   visit("road_uncertainty", o.road_uncertainty, "-",
         "1-sigma of the height above the road ahead, the same for metres");
   visit("max_uncertainty", o.max_uncertainty, "-", "relative 1-sigma that counts as metric");
