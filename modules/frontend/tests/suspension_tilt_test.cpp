@@ -165,6 +165,19 @@ TEST(SuspensionTilt, TakesTheYawOfALeaningCarForNoPitching) {
   EXPECT_LT(errors.largest, 0.5 * kDegree);
 }
 
+// A roll that is not known turns pitch into the direction of travel as the car yaws.
+TEST(SuspensionTilt, LearnsItsRollFromABend) {
+  constexpr double kRoll = 3.0 * kDegree;
+  const TiltBelief unknown = {{0.0, 0.0}, 0.1 * kDegree, 5.0 * kDegree};
+  Drive turns{nothing};
+  turns.roll = [](double) { return kRoll; };
+  turns.yaw = [](double t) { return 30.0 * kDegree * t; };
+  turns.seconds = 3.0;
+  SuspensionTilt filter(unknown);
+  (void)follow(turns, filter, 12, unknown);
+  EXPECT_NEAR(filter.tilt().tilt.roll_right, kRoll, 1.0 * kDegree);
+}
+
 TEST(SuspensionTilt, KeepsTheRollOfTheMountingInTheLongRun) {
   Drive straight{nothing};
   straight.seconds = 120.0;
