@@ -223,7 +223,7 @@ void run_batch(benchmark::State& state, const Setup& setup, Scenes scenes, Batch
   const PlanarPoseArrays poses{out[0].data(), out[1].data(), out[2].data(), out[3].data(),
                                valid.data()};
   std::size_t solved = 0;
-  for (auto _ : state) benchmark::DoNotOptimize(solved = solve(acs, poses, level));
+  for ([[maybe_unused]] auto _ : state) benchmark::DoNotOptimize(solved = solve(acs, poses, level));
   double found = 0.0;
   for (std::size_t i = 0; i < list.size(); ++i) {
     const PlanarPose pose{out[0][i], out[1][i], out[2][i], out[3][i]};

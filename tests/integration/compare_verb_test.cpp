@@ -49,7 +49,7 @@ class CompareVerb : public DriveFixture {
     return oneac_program(arguments);
   }
   [[nodiscard]] fs::path done(const std::string& name, std::vector<std::string> extra = {}) const {
-    const fs::path folder = scratch() / name;
+    fs::path folder = scratch() / name;
     const ProgramResult result = compare(folder, std::move(extra));
     EXPECT_EQ(result.exit_code, 0) << result.err;
     return folder;

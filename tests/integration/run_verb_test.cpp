@@ -16,7 +16,7 @@ namespace fs = std::filesystem;
 class RunVerb : public DriveFixture {
  protected:
   [[nodiscard]] fs::path run(const std::string& name, std::vector<std::string> extra = {}) const {
-    const fs::path folder = scratch() / name;
+    fs::path folder = scratch() / name;
     std::vector<std::string> arguments{"run", log(), "-o", folder.string()};
     arguments.insert(arguments.end(), extra.begin(), extra.end());
     const ProgramResult result = oneac_program(arguments);

@@ -41,6 +41,7 @@ Eigen::Vector3d median_direction(const std::vector<RelativePoseRow>& rows) {
   Eigen::Vector3d median;
   for (int axis = 0; axis < 3; ++axis) {
     std::vector<double> values;
+    values.reserve(rows.size());
     for (const auto& row : rows) values.push_back(row.T_2_1.t.normalized()(axis));
     median(axis) = percentile(values, 50.0);
   }

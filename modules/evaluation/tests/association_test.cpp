@@ -16,6 +16,7 @@ RelativePoseRow pair_of(std::size_t index1, std::size_t index2) {
 
 std::vector<std::pair<std::size_t, std::size_t>> as_pairs(const std::vector<RowMatch>& matches) {
   std::vector<std::pair<std::size_t, std::size_t>> pairs;
+  pairs.reserve(matches.size());
   for (const RowMatch& match : matches) pairs.emplace_back(match.estimate, match.reference);
   return pairs;
 }

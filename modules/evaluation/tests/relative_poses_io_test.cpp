@@ -18,7 +18,7 @@ std::vector<RelativePoseRow> random_rows(int count) {
   std::vector<RelativePoseRow> rows;
   for (int k = 0; k < count; ++k) {
     RelativePoseRow row;
-    row.index1 = static_cast<std::size_t>(3 * k);
+    row.index1 = 3 * static_cast<std::size_t>(k);
     row.index2 = row.index1 + 3;
     row.t1 = 1229456789.123456 + 0.05 * k;
     row.t2 = row.t1 + 0.05;

@@ -37,7 +37,7 @@ struct ColumnSums {
 
 /// Sums of 7 neighbours, for u in [kBox, width − kBox).
 void box_sums(const std::vector<std::int32_t>& in, std::vector<float>& out) {
-  const std::size_t count = in.size() - 2 * kBox;
+  const std::size_t count = in.size() - 2 * std::size_t{kBox};
   const std::int32_t* p = in.data();
   float* sums = out.data() + kBox;
   for (std::size_t u = 0; u < count; ++u) {

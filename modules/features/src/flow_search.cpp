@@ -19,7 +19,7 @@ class TrackSearch {
  public:
   TrackSearch(const std::vector<KltTrack>& tracks, const ImagePyramid& first,
               const ImagePyramid& second, const MotionPrediction& motion, const KltOptions& options)
-      : tracks_(tracks), motion_(motion), flow_(first, second, options), matches_(tracks.size()) {}
+      : flow_(first, second, options), tracks_(tracks), motion_(motion), matches_(tracks.size()) {}
 
   std::vector<std::optional<PatchMatch>> run() {
     for (const bool fresh : {false, true}) {
@@ -108,9 +108,9 @@ class TrackSearch {
     }
   }
 
+  PatchFlow flow_;
   const std::vector<KltTrack>& tracks_;
   const MotionPrediction& motion_;
-  PatchFlow flow_;
   std::vector<std::optional<PatchMatch>> matches_;
   std::vector<Neighbour> found_;
 };

@@ -7,10 +7,10 @@ namespace oneac::internal {
 
 /// A patch of the first image at one level, made ready for alignment.
 struct AnchoredPatch {
+  PatchTemplate patch;  // first: aligned more strictly than the others
   const PatchWindow* window = nullptr;
   std::size_t level = 0;
   Eigen::Matrix2d M = Eigen::Matrix2d::Identity();  ///< pixels of the window to those of the image
-  PatchTemplate patch;
   SpdInverse<kAffineParameters>
       inverse;  ///< of the normal matrix; expected_affine_sigma() fills it
   bool inverted = false;

@@ -151,7 +151,7 @@ std::optional<PatchMatch> PatchFlow::find(const Eigen::Vector2d& u1,
     origin = &guess;
     if (best.zncc > kFits) break;
   }
-  if (best.zncc < kDoubtful) return std::nullopt;
+  if (origin == nullptr || best.zncc < kDoubtful) return std::nullopt;
   if (!is_foretold(*origin, best.warp) && !returns(u1, *origin, best.warp)) return std::nullopt;
   return refine(u1, best.warp, memory);
 }

@@ -62,10 +62,10 @@ class PatchFlow {
   [[nodiscard]] bool returns(const Eigen::Vector2d& u1, const FlowGuess& guess,
                              const PatchWarp& found) const;
 
+  std::array<AnchoredPatch, kMaxLevels> patches_;
   const ImagePyramid& first_;
   const ImagePyramid& second_;
   const KltOptions& options_;
-  std::array<AnchoredPatch, kMaxLevels> patches_;
   std::array<int, kMaxLevels> state_{};  ///< 0 not made, 1 usable, −1 not usable
 };
 

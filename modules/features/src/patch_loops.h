@@ -8,6 +8,7 @@
 namespace oneac::internal {
 namespace {
 
+// NOLINTNEXTLINE(readability-function-size): PatchKernels decides on the parameters.
 inline void residuals(const SampleGrid& grid, const PatchWindow& window, const PatchTemplate& patch,
                       const float* weight, float gain, float bias, float* residual,
                       AlignmentSums& out) {

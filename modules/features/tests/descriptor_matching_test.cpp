@@ -17,7 +17,8 @@ AffineFeatures random_features(SceneGenerator& scene, int count) {
   features.descriptors.resize(count, 128);
   for (int i = 0; i < count; ++i) {
     AffineFrame frame;
-    frame.centre = {20.0 * (i % 10), 20.0 * (i / 10)};
+    const int row = i / 10, column = i % 10;
+    frame.centre = {20.0 * column, 20.0 * row};
     frame.shape = 5.0 * Eigen::Matrix2d::Identity();
     features.frames.push_back(frame);
     for (int k = 0; k < 128; ++k) {

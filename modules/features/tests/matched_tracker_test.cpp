@@ -24,6 +24,7 @@ View drive(int frame) {
 std::vector<TrackedPair> pairs_of(const std::string& extractor, AcTracker& tracker) {
   const Texture texture(41);
   std::vector<TrackedPair> pairs;
+  pairs.reserve(3);
   for (int frame = 0; frame < 3; ++frame) {
     pairs.push_back(tracker.advance(tracker.prepare(render(texture, drive(frame)).view()), {}));
   }

@@ -40,6 +40,7 @@ double median(std::vector<double> values) {
 /// [rad] 1σ of the turns about the lateral axis that a camera with this roll does not explain.
 double pitching_beside(double roll, const std::vector<Eigen::Vector3d>& turns) {
   std::vector<double> off;
+  off.reserve(turns.size());
   for (const Eigen::Vector3d& turn : turns) off.push_back(std::abs(turn.x() - roll * turn.y()));
   return std::max(kMadToSigma * median(std::move(off)), kLeastPitching);
 }
@@ -94,6 +95,7 @@ double TiltEstimator::pitch_correction(double& sigma) const {
   }
   const double middle = median(elevations);
   std::vector<double> off;
+  off.reserve(elevations.size());
   for (const double elevation : elevations) off.push_back(std::abs(elevation - middle));
   const double scatter = std::max(kMadToSigma * median(std::move(off)), kLeastScatter);
   const double count = static_cast<double>(elevations.size());

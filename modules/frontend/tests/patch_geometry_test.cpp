@@ -9,6 +9,7 @@ namespace {
 
 TEST(RobustMean, IsNotPulledDownByTrafficAheadThatSeemsToStandStill) {
   std::vector<LengthVote> votes;
+  votes.reserve(85);
   for (int i = 0; i < 60; ++i) votes.push_back({0.75 + 0.001 * (i % 7), 0.01, 0.01});
   for (int i = 0; i < 25; ++i) votes.push_back({0.002 * i, 0.003, 0.05});
   EXPECT_NEAR(robust_mean(votes).value, 0.753, 0.01);
@@ -16,6 +17,7 @@ TEST(RobustMean, IsNotPulledDownByTrafficAheadThatSeemsToStandStill) {
 
 TEST(RobustMean, IsNotDecidedByAFewDepthsThatClaimToBePerfect) {
   std::vector<LengthVote> votes;
+  votes.reserve(206);
   for (int i = 0; i < 200; ++i) votes.push_back({0.75 + 0.001 * (i % 7), 0.01, 0.005});
   for (int i = 0; i < 6; ++i) votes.push_back({0.45, 0.0005, 0.0001});
   EXPECT_NEAR(robust_mean(votes).value, 0.753, 0.01);

@@ -16,6 +16,7 @@ namespace {
 
 std::vector<AffineCorrespondence> street(SceneGenerator& scene, const RelativePose& T) {
   std::vector<AffineCorrespondence> acs;
+  acs.reserve(120);
   const Plane ground = scene.ground();
   for (int i = 0; i < 60; ++i) acs.push_back(scene.on_plane(T, ground));
   for (int i = 0; i < 60; ++i) acs.push_back(scene.on_plane(T, scene.any_plane()));

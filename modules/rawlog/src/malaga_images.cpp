@@ -62,6 +62,7 @@ std::vector<MalagaPair> pairs_in(const fs::path& folder) {
     (name->right ? pair.right : pair.left) = image;
   }
   std::vector<MalagaPair> list;
+  list.reserve(pairs.size());
   for (auto& [key, pair] : pairs) list.push_back(std::move(pair));
   return list;
 }

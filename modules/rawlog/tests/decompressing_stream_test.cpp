@@ -31,13 +31,13 @@ std::string read_all(DecompressingStream& stream) {
   return all;
 }
 
-class Stream : public ::testing::TestWithParam<Packing> {
+class PackedLog : public ::testing::TestWithParam<Packing> {
  protected:
   TemporaryFolder folder_;
   std::filesystem::path file_ = folder_.path() / "log";
 };
 
-TEST_P(Stream, DeliversEveryByteAndEndsCleanly) {
+TEST_P(PackedLog, DeliversEveryByteAndEndsCleanly) {
   test::write_bytes(file_, test::packed_bytes(long_data(), GetParam()));
   DecompressingStream stream(file_);
   EXPECT_TRUE(read_all(stream) == long_data());
@@ -46,7 +46,7 @@ TEST_P(Stream, DeliversEveryByteAndEndsCleanly) {
   EXPECT_DOUBLE_EQ(stream.progress(), 1.0);
 }
 
-TEST_P(Stream, DeliversWhatComesBeforeACut) {
+TEST_P(PackedLog, DeliversWhatComesBeforeACut) {
   std::string bytes = test::packed_bytes(long_data(), GetParam());
   bytes.resize(bytes.size() * 3 / 4);
   test::write_bytes(file_, bytes);
@@ -60,10 +60,10 @@ TEST_P(Stream, DeliversWhatComesBeforeACut) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Packings, Stream,
+INSTANTIATE_TEST_SUITE_P(Packings, PackedLog,
                          ::testing::Values(Packing::plain, Packing::gzip, Packing::zstd));
 
-class CompressedStream : public Stream {};
+class CompressedStream : public PackedLog {};
 
 TEST_P(CompressedStream, ReportsDamage) {
   std::string bytes = test::packed_bytes(long_data(), GetParam());
@@ -85,7 +85,7 @@ TEST_P(CompressedStream, ReadsConcatenatedFiles) {
 INSTANTIATE_TEST_SUITE_P(Packings, CompressedStream,
                          ::testing::Values(Packing::gzip, Packing::zstd));
 
-TEST_F(Stream, RefusesReadsOfAbsurdSize) {
+TEST_F(PackedLog, RefusesReadsOfAbsurdSize) {
   test::write_bytes(file_, long_data());
   DecompressingStream stream(file_);
   char one = 0;
@@ -93,7 +93,7 @@ TEST_F(Stream, RefusesReadsOfAbsurdSize) {
   EXPECT_NE(stream.fault().find("absurd size"), std::string::npos);
 }
 
-TEST_F(Stream, RefusesWhatIsNoFile) {
+TEST_F(PackedLog, RefusesWhatIsNoFile) {
   const auto fault = [](const std::filesystem::path& path) {
     return test::input_error([&] { const DecompressingStream stream(path); });
   };

@@ -147,7 +147,7 @@ TEST(DriveRecorder, TheSourceReadsBackImagesTiltAndHeight) {
     RawlogSource source(options);
     int count = 0;
     while (auto ticket = source.next()) {
-      const CameraFrame frame = source.load(std::move(*ticket));
+      const CameraFrame frame = source.load(*ticket);
       const Tilt tilt = tilt_from_mounting(frame.T_vehicle_cam.linear());
       EXPECT_NEAR(tilt.pitch_up, 5.0 * kDegree, 1e-6) << to_string(convention);
       EXPECT_NEAR(frame.T_vehicle_cam.translation().z(), 1.5, 1e-9);

@@ -72,7 +72,7 @@ PatchTransfer::AffineDerivative PatchTransfer::affine_derivative() const {
   const Matrix36 dy_anchor = anchor_column(ray_, rho_);
   const Matrix36 dy_view = view_column(y, rho_);
   AffineDerivative d;
-  for (int j = 0; j < 2; ++j) {
+  for (Eigen::Index j = 0; j < 2; ++j) {
     const Eigen::Vector3d e = Eigen::Vector3d::Unit(j);
     const Eigen::Vector3d b = B.col(j);
     Matrix35 db_patch = Matrix35::Zero();

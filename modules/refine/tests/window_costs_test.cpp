@@ -16,6 +16,7 @@ void expect_jacobians_agree(const ceres::CostFunction& cost,
   const auto rows = static_cast<std::size_t>(cost.num_residuals());
   const auto evaluate = [&](double** jacobians) {
     std::vector<const double*> pointers;
+    pointers.reserve(blocks.size());
     for (const auto& block : blocks) pointers.push_back(block.data());
     std::vector<double> residuals(rows);
     EXPECT_TRUE(cost.Evaluate(pointers.data(), residuals.data(), jacobians));
@@ -23,6 +24,8 @@ void expect_jacobians_agree(const ceres::CostFunction& cost,
   };
   std::vector<std::vector<double>> analytic;
   std::vector<double*> pointers;
+  analytic.reserve(blocks.size());
+  pointers.reserve(blocks.size());
   for (const auto& block : blocks) analytic.emplace_back(rows * block.size());
   for (auto& jacobian : analytic) pointers.push_back(jacobian.data());
   static_cast<void>(evaluate(pointers.data()));

@@ -41,9 +41,8 @@ void planar_costs(const PlanarEssentials& hypotheses, const PointArrays<float>& 
 }
 
 /// Points in the lanes. Partial sums [part, part + kLanes) of the groups [first, last).
-void msac_part(const float* E, const PointArrays<float>& points, std::size_t first,
-               std::size_t last, float inverse_squared_threshold, std::size_t part,
-               float* partial) {
+inline FloatLanes msac_part(const float* E, const PointArrays<float>& points, std::size_t first,
+                            std::size_t last, float inverse_squared_threshold, std::size_t part) {
   FloatLanes total = {};
   for (std::size_t i = first * kPointGroup + part; i < last * kPointGroup; i += kPointGroup) {
     FloatLanes x1, y1, x2, y2, weight;
@@ -61,7 +60,7 @@ void msac_part(const float* E, const PointArrays<float>& points, std::size_t fir
     const FloatLanes gradient = a * a + b * b + d * d + f * f + kTinyGradient;
     total += at_most_one(algebraic * algebraic * inverse_squared_threshold / gradient) * weight;
   }
-  store(total, partial + part);
+  return total;
 }
 
 float msac(const float* E, const PointArrays<float>& points, std::size_t first, std::size_t last,
@@ -69,7 +68,7 @@ float msac(const float* E, const PointArrays<float>& points, std::size_t first, 
   static_assert(kPartialSums<float> == kPointGroup);
   float partial[kPartialSums<float>];
   for (std::size_t part = 0; part < kPartialSums<float>; part += kLanes<float>) {
-    msac_part(E, points, first, last, inverse_squared_threshold, part, partial);
+    store(msac_part(E, points, first, last, inverse_squared_threshold, part), partial + part);
   }
   return sum(partial);
 }
@@ -84,6 +83,15 @@ template <class A, class B>
 inline auto cross(const A& a, const B& b) {
   using Lanes = decltype(a.x * b.x);
   return Vector<Lanes>{a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
+}
+
+/// v −= share (a + b).
+template <class Lanes>
+inline void take_away(const Lanes& share, const Vector<Lanes>& a, const Vector<Lanes>& b,
+                      Vector<Lanes>& v) {
+  v.x -= share * (a.x + b.x);
+  v.y -= share * (a.y + b.y);
+  v.z -= share * (a.z + b.z);
 }
 
 /// NormalSums, each in its partial sums.
@@ -140,12 +148,8 @@ void normal_part(const PoseNumbers<Number>& pose, const PointArrays<Number>& poi
       const Vector<Lanes> first = cross(y, lt);
       const Vector<Lanes> second = cross(Rk, q);
       const Vector<Lanes> third = cross(Rk, x2);
-      by_w.x -= share * (first.x + second.x);
-      by_w.y -= share * (first.y + second.y);
-      by_w.z -= share * (first.z + second.z);
-      by_t.x -= share * (yl.x + third.x);
-      by_t.y -= share * (yl.y + third.y);
-      by_t.z -= share * (yl.z + third.z);
+      take_away(share, first, second, by_w);
+      take_away(share, yl, third, by_t);
     }
     const Lanes J[5] = {by_w.x, by_w.y, by_w.z,
                         by_t.x * pose.T1[0] + by_t.y * pose.T1[1] + by_t.z * pose.T1[2],

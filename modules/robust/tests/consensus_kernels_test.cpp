@@ -35,6 +35,8 @@ PoseNumbers<Number> some_pose() {
 
 template <class Sums>
 bool same_bits(const Sums& a, const Sums& b) {
+  // Bits are what is compared: −0 is not 0 here.
+  // NOLINTNEXTLINE(bugprone-suspicious-memory-comparison)
   return std::memcmp(&a, &b, sizeof a) == 0;
 }
 

@@ -115,7 +115,8 @@ TEST(GridNeighbours, HaveCellsOfTheirOwnAsFarApartAsDoublesGo) {
   constexpr double kFar = 1.7e308;
   std::vector<AffineCorrespondence> acs(6);
   for (std::size_t i = 0; i < acs.size(); ++i) {
-    acs[i].x1.setConstant(kFar * (static_cast<double>(i / 2) - 1.0));
+    const std::size_t couple = i / 2;
+    acs[i].x1.setConstant(kFar * (static_cast<double>(couple) - 1.0));
     acs[i].x2 = acs[i].x1;
   }
   const NeighbourPairs expected = {{0, 1}, {2, 3}, {4, 5}};

@@ -16,6 +16,7 @@ constexpr double kDegree = 3.14159265358979323846 / 180.0;
 std::vector<AffineCorrespondence> noisy_scene(SceneGenerator& scene, const RelativePose& T,
                                               double sigma) {
   std::vector<AffineCorrespondence> acs;
+  acs.reserve(200);
   for (int i = 0; i < 200; ++i) {
     acs.push_back(scene.with_noise(scene.on_plane(T, scene.any_plane()), sigma, 0.0));
   }

@@ -14,6 +14,7 @@ constexpr double kThreshold = 1.0 / 700.0;
 
 std::vector<AffineCorrespondence> rotated_points(SceneGenerator& scene, const Eigen::Matrix3d& R) {
   std::vector<AffineCorrespondence> acs;
+  acs.reserve(100);
   for (int i = 0; i < 100; ++i) {
     acs.push_back(scene.on_plane({R, Eigen::Vector3d::Zero()}, scene.any_plane()));
   }

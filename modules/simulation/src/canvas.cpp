@@ -84,7 +84,8 @@ void Canvas::crack(RandomNumbers& random, int segments, double width, double val
 
 void Canvas::dead_leaves(RandomNumbers& random, const Leaves& leaves) {
   const double area = static_cast<double>(width_) * height_;
-  for (double high = leaves.largest; high > leaves.smallest; high *= 0.5) {
+  double high = leaves.largest;
+  while (high > leaves.smallest) {
     const double low = std::max(0.5 * high, leaves.smallest);
     const double mean_area =
         3.14 * 0.7 * 0.5625 * high * high;  // of radii in [high/2, high], squashed
@@ -102,6 +103,7 @@ void Canvas::dead_leaves(RandomNumbers& random, const Leaves& leaves) {
         ellipse({centre, radii, random.uniform(0.0, 3.14)}, value, opacity);
       }
     }
+    high *= 0.5;
   }
 }
 

@@ -19,11 +19,14 @@ constexpr double kTimeStep_s = 0.05;  // how finely the moment is looked for
 double time_at(const Route& route, const Eigen::Vector2d& point, double duration_s) {
   double best = 0.0;
   double nearest = std::numeric_limits<double>::infinity();
-  for (double t = 0.0; t <= duration_s; t += kTimeStep_s) {
+  double t = 0.0;
+  while (t <= duration_s) {
     const double distance = (route.at(t).position - point).squaredNorm();
-    if (distance >= nearest) continue;
-    nearest = distance;
-    best = t;
+    if (distance < nearest) {
+      nearest = distance;
+      best = t;
+    }
+    t += kTimeStep_s;
   }
   return best;
 }

@@ -59,11 +59,16 @@ void lay_bricks(RandomNumbers& random, FacadeCanvas& wall, double width, double 
   const double tone = random.uniform(90.0, 150.0);
   const double variation = random.uniform(8.0, 16.0);
   constexpr double kJoint = 0.02;
-  int row = 0;
-  for (double v = 0.0; v < height; v += course, ++row) {
-    for (double u = row % 2 == 0 ? 0.0 : -0.5 * brick; u < width; u += brick) {
+  bool shifted = false;
+  double v = 0.0;
+  while (v < height) {
+    double u = shifted ? -0.5 * brick : 0.0;
+    while (u < width) {
       wall.rectangle({u, v, brick - kJoint, course - kJoint, tone + variation * random.normal()});
+      u += brick;
     }
+    v += course;
+    shifted = !shifted;
   }
 }
 
@@ -99,7 +104,8 @@ void set_opening(RandomNumbers& random, FacadeCanvas& wall, const Eigen::Vector4
 void set_storeys(RandomNumbers& random, FacadeCanvas& wall, double width, double height) {
   const double storey = random.uniform(2.8, 3.4);
   const double opening = random.uniform(0.9, 1.5);
-  for (double base = height; base > 2.4; base -= storey) {
+  double base = height;
+  while (base > 2.4) {
     double u = random.uniform(0.4, 1.2);
     while (u + opening < width - 0.3) {
       const bool door = base == height && random.chance(0.35);
@@ -110,6 +116,7 @@ void set_storeys(RandomNumbers& random, FacadeCanvas& wall, double width, double
       }
       u += opening + random.uniform(0.7, 2.0);
     }
+    base -= storey;
   }
 }
 

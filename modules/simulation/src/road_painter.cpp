@@ -66,24 +66,32 @@ void paint_lines(DecalCanvas& road, double length) {
   road.rectangle({0.0, CrossSection::kLeftEdge - kLine, length, kLine, kPaint});
   constexpr double kDash = 2.0;
   constexpr double kGap = 3.0;
-  for (double x = 0.0; x < length - kDash; x += kDash + kGap) {
+  double x = 0.0;
+  while (x < length - kDash) {
     road.rectangle({x, CrossSection::kCentreLine, kDash, kLine, kPaint});
+    x += kDash + kGap;
   }
 }
 
 void paint_zebra(RandomNumbers& random, DecalCanvas& road, double x) {
-  for (double y = CrossSection::kRightEdge + 0.4; y < CrossSection::kLeftEdge - 0.5; y += 1.0) {
+  double y = CrossSection::kRightEdge + 0.4;
+  while (y < CrossSection::kLeftEdge - 0.5) {
     road.rectangle({x, y, 3.0, 0.5, kPaint + 8.0 * random.normal()});
+    y += 1.0;
   }
 }
 
 void pave(RandomNumbers& random, DecalCanvas& road, double from_y, double to_y, double length) {
   constexpr double kSlab = 0.6;  // [m]
   constexpr double kJoint = 0.03;
-  for (double x = 0.0; x < length; x += kSlab) {
-    for (double y = from_y; y < to_y; y += kSlab) {
+  double x = 0.0;
+  while (x < length) {
+    double y = from_y;
+    while (y < to_y) {
       road.rectangle({x, y, kSlab - kJoint, kSlab - kJoint, 22.0 + 7.0 * random.normal()});
+      y += kSlab;
     }
+    x += kSlab;
   }
 }
 

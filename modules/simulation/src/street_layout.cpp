@@ -48,7 +48,8 @@ class StreetBuilder {
 
   void add_obstacles(const Leg& leg, double side) {
     const double kerb = side < 0 ? -2.5 : 6.3;
-    for (double x = random_.uniform(0.0, 6.0); x < leg.length_m; x += random_.uniform(5.0, 13.0)) {
+    double x = random_.uniform(0.0, 6.0);
+    while (x < leg.length_m) {
       if (random_.chance(0.6)) {
         add_obstacle(leg, {x, kerb, side},
                      {random_.uniform(3.6, 4.8), 1.8, random_.uniform(1.3, 2.1)},
@@ -60,6 +61,7 @@ class StreetBuilder {
         add_obstacle(leg, {x, kerb + side * 0.8, side}, {0.25, 0.25, random_.uniform(2.2, 4.5)},
                      Box::Kind::kPost);
       }
+      x += random_.uniform(5.0, 13.0);
     }
   }
 

@@ -28,9 +28,11 @@ TEST(Texture, ReturnsItsTexelsWhenLookedAtClosely) {
 
 TEST(Texture, AveragesWhatAPixelCannotResolve) {
   const Texture texture(checkerboard(64), 0.1);
-  for (float u = 0.0F; u < 3.0F; u += 0.173F) {
+  float u = 0.0F;
+  while (u < 3.0F) {
     const Footprint from_afar{{u, 1.1F * u}, {0.8F, 0.0F}, {0.0F, 0.8F}};
     EXPECT_NEAR(texture.sample(from_afar), 100.0F, 2.0F);
+    u += 0.173F;
   }
 }
 

@@ -61,9 +61,9 @@ using Cubics = std::array<Cubic, 10>;
     for (std::size_t m = 0; m < 10; ++m) eet[i][i][m] -= half_trace[m];
   }
   Cubics cubics{};
-  for (int i = 0; i < 3; ++i) {
-    for (int j = 0; j < 3; ++j) {
-      Cubic& c = cubics[static_cast<std::size_t>(3 * i + j)];
+  for (std::size_t i = 0; i < 3; ++i) {
+    for (std::size_t j = 0; j < 3; ++j) {
+      Cubic& c = cubics[3 * i + j];
       for (int k = 0; k < 3; ++k) add_product(eet[i][k], e[k][j], c);
     }
   }

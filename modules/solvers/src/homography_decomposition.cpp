@@ -47,7 +47,7 @@ SolutionSet<PlanePose, 4> decompose_homography(const Matrix3d& H_any_scale) {
   if (!(size > 1e-150)) return poses;
   const Matrix3d unit = H_any_scale / size;
   const Eigen::SelfAdjointEigenSolver<Matrix3d> eigen(unit.transpose() * unit);
-  const Vector3d values = eigen.eigenvalues();
+  const Vector3d& values = eigen.eigenvalues();
   if (!(values(0) > kSingular * kSingular * values(2))) return poses;
   const double middle = values(1);
   if (!(middle > kFarthest * kFarthest * values(2))) return poses;
@@ -93,7 +93,7 @@ SolutionSet<Matrix3d, 1> scaled_homography(const Matrix3d& H, AcSpan acs, const 
   const Matrix3d unit = H / size;
   const Eigen::SelfAdjointEigenSolver<Matrix3d> eigen(unit.transpose() * unit,
                                                       Eigen::EigenvaluesOnly);
-  const Vector3d values = eigen.eigenvalues();
+  const Vector3d& values = eigen.eigenvalues();
   if (!(values(0) > kSingular * kSingular * values(2))) return {};
   if (!(values(2) - values(0) > kRotation * values(1))) return {};  // a rotation: no plane seen
   int votes = 0;

@@ -91,7 +91,7 @@ void expect_equal(const Forms& forms, const std::vector<AffineCorrespondence>& a
 AffineCorrespondence mixed(SceneGenerator& scene, int i) {
   const RelativePose T = scene.planar_motion();
   const double sigma = std::pow(10.0, scene.uniform(-6.0, -1.0));
-  const auto ground = scene.on_plane(T, scene.ground());
+  auto ground = scene.on_plane(T, scene.ground());
   switch (i % 16) {
     case 0:
       return ground;
@@ -127,6 +127,7 @@ AffineCorrespondence mixed(SceneGenerator& scene, int i) {
 TEST_P(BatchSolver, EqualsTheScalarSolverOnHundredThousandCorrespondencesAtEveryLevel) {
   SceneGenerator scene(1);
   std::vector<AffineCorrespondence> acs;
+  acs.reserve(100000);
   for (int i = 0; i < 100000; ++i) acs.push_back(mixed(scene, i));
   for (const SimdLevel level : levels()) expect_equal(GetParam(), acs, 0, level);
 }
@@ -148,6 +149,7 @@ TEST_P(BatchSolver, AnySizeAndAlignmentWillDo) {
 TEST_P(BatchSolver, KernelItselfDecidesNearlyAllOfANoisyScene) {
   SceneGenerator scene(3);
   std::vector<AffineCorrespondence> acs;
+  acs.reserve(1000);
   const RelativePose T = scene.planar_motion();
   const Plane ground = scene.ground();
   for (int i = 0; i < 1000; ++i) {
@@ -166,6 +168,7 @@ TEST_P(BatchSolver, KernelItselfDecidesNearlyAllOfANoisyScene) {
 TEST_P(BatchSolver, LevelsAgree) {
   SceneGenerator scene(4);
   std::vector<AffineCorrespondence> acs;
+  acs.reserve(1000);
   for (int i = 0; i < 1000; ++i) acs.push_back(mixed(scene, i));
   Arrays baseline(acs), widest(acs);
   GetParam().batch(baseline.in(0, acs.size()), baseline.out(), SimdLevel::kBaseline);
@@ -197,6 +200,7 @@ TEST_P(BatchSolver, MisuseThrowsAndNamesTheArgument) {
 TEST_P(BatchSolver, DoesNotAllocate) {
   SceneGenerator scene(6);
   std::vector<AffineCorrespondence> acs;
+  acs.reserve(133);
   for (int i = 0; i < 133; ++i) acs.push_back(mixed(scene, i));
   Arrays arrays(acs);
   const AcArrays in = arrays.in(0, acs.size());

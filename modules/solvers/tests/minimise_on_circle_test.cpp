@@ -19,14 +19,18 @@ double brute_force(const Eigen::Matrix2d& Q, const Eigen::Vector2d& h) {
   const auto at = [&](double a) { return value(Q, h, {std::cos(a), std::sin(a)}); };
   constexpr double kStep = 5e-4;
   double least = at(0.0);
-  for (double a = 0.0; a < 6.2832; a += kStep) {
-    if (at(a) > at(a - kStep) || at(a) > at(a + kStep)) continue;
-    double best = a;
-    for (double step = kStep; step > 1e-9; step *= 0.6) {
-      if (at(best + step) < at(best)) best += step;
-      if (at(best - step) < at(best)) best -= step;
+  double a = 0.0;
+  while (a < 6.2832) {
+    if (at(a) <= at(a - kStep) && at(a) <= at(a + kStep)) {
+      double best = a, step = kStep;
+      while (step > 1e-9) {
+        if (at(best + step) < at(best)) best += step;
+        if (at(best - step) < at(best)) best -= step;
+        step *= 0.6;
+      }
+      least = std::min(least, at(best));
     }
-    least = std::min(least, at(best));
+    a += kStep;
   }
   return least;
 }

@@ -14,6 +14,7 @@ template <int N>
 std::vector<double> sorted_roots(const double (&c)[N + 1]) {
   const RealRoots<N> found(c);
   std::vector<double> roots;
+  roots.reserve(N);
   for (int i = 0; i < found.size(); ++i) roots.push_back(found[i]);
   std::sort(roots.begin(), roots.end());
   return roots;

@@ -31,6 +31,7 @@ std::vector<AffineCorrespondence> ground_correspondences(SceneGenerator& scene,
                                                          const RelativePose& T, const Plane& plane,
                                                          int count) {
   std::vector<AffineCorrespondence> acs;
+  acs.reserve(static_cast<std::size_t>(count));
   for (int i = 0; i < count; ++i) acs.push_back(scene.on_plane(T, plane));
   return acs;
 }
@@ -298,13 +299,15 @@ TEST(Relpose1acGroundOptimal, IsTheBruteForceMinimumOverTheAngle) {
       const Eigen::Matrix<double, 6, 2> W = system.A.rightCols<2>();
       return (W * W.colPivHouseholderQr().solve(rest) - rest).squaredNorm();
     };
-    double best = 0.0;
-    for (double alpha = 0.0, step = 1e-3; alpha < 6.2832; alpha += step) {
+    double best = 0.0, alpha = 0.0, step = 1e-3;
+    while (alpha < 6.2832) {
       if (cost_at(alpha) < cost_at(best)) best = alpha;
+      alpha += step;
     }
-    for (double step = 1e-3; step > 1e-9; step *= 0.6) {
+    while (step > 1e-9) {
       if (cost_at(best + step) < cost_at(best)) best += step;
       if (cost_at(best - step) < cost_at(best)) best -= step;
+      step *= 0.6;
     }
     EXPECT_NEAR(cost(found[0], noisy), cost_at(best), 1e-9) << "case " << i << " of seed 14";
   }

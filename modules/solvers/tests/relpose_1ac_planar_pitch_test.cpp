@@ -23,7 +23,7 @@ struct Case {
 
 AffineCorrespondence off_horizon(SceneGenerator& scene, const RelativePose& T) {
   for (;;) {
-    const AffineCorrespondence ac = scene.on_plane(T, scene.any_plane());
+    AffineCorrespondence ac = scene.on_plane(T, scene.any_plane());
     if (std::abs(ac.x1.y()) > 0.05) return ac;
   }
 }
@@ -114,8 +114,10 @@ TEST(Relpose1acPlanarPitch, ManyCorrespondencesRecoverTheMotionAndUseWeights) {
   for (int i = 0; i < 100; ++i) {
     double pitch = 0.0;
     const RelativePose T = pitched(scene, pitch);
+    const int count = 3 + i % 6;
     std::vector<AffineCorrespondence> acs;
-    for (int k = 0; k < 3 + i % 6; ++k) acs.push_back(off_horizon(scene, T));
+    acs.reserve(static_cast<std::size_t>(count) + 1);
+    for (int k = 0; k < count; ++k) acs.push_back(off_horizon(scene, T));
     std::vector<double> weights(acs.size(), 1.0);
     acs.push_back(scene.with_noise(acs[0], 0.1, 0.3));
     weights.push_back(0.0);
@@ -131,6 +133,7 @@ TEST(Relpose1acPlanarPitch, LeastSquaresIsAMinimumOfTheWeightedEquations) {
   double pitch = 0.0;
   const RelativePose T = pitched(scene, pitch);
   std::vector<AffineCorrespondence> acs;
+  acs.reserve(12);
   for (int k = 0; k < 12; ++k) acs.push_back(scene.with_noise(off_horizon(scene, T), 1e-3, 1e-2));
   const auto found = relpose_nac_planar_pitch(acs);
   ASSERT_EQ(found.size(), 1u);

@@ -22,7 +22,7 @@ struct Case {
 /// A point at a useful distance from the horizon, where the solver is defined.
 AffineCorrespondence off_horizon(SceneGenerator& scene, const RelativePose& T) {
   for (;;) {
-    const AffineCorrespondence ac = scene.on_plane(T, scene.any_plane());
+    AffineCorrespondence ac = scene.on_plane(T, scene.any_plane());
     if (std::abs(ac.x1.y()) > 0.02) return ac;
   }
 }
@@ -69,8 +69,10 @@ TEST(Relpose1acPlanar, RecoversFromManyCorrespondencesOnDifferentPlanes) {
   SceneGenerator scene(3);
   for (int i = 0; i < 200; ++i) {
     const RelativePose T = scene.planar_motion();
+    const int count = 1 + i % 8;
     std::vector<AffineCorrespondence> acs;
-    for (int k = 0; k < 1 + i % 8; ++k) acs.push_back(off_horizon(scene, T));
+    acs.reserve(static_cast<std::size_t>(count));
+    for (int k = 0; k < count; ++k) acs.push_back(off_horizon(scene, T));
     const auto found = relpose_nac_planar(acs);
     ASSERT_EQ(found.size(), 1u) << "scene " << i << " of seed 3";
     EXPECT_LT(pose_error(found[0].pose(), T), kExact) << "scene " << i << " of seed 3";
@@ -140,6 +142,7 @@ TEST(Relpose1acPlanar, WeightZeroRemovesAnOutlier) {
   SceneGenerator scene(9);
   const RelativePose T = scene.planar_motion();
   std::vector<AffineCorrespondence> acs;
+  acs.reserve(5);
   for (int k = 0; k < 5; ++k) acs.push_back(off_horizon(scene, T));
   acs[1] = scene.with_noise(acs[1], 0.1, 0.5);
   const std::vector<double> weights{1.0, 0.0, 1.0, 2.0, 1.0};

@@ -62,7 +62,7 @@ struct Case {
 /// Away from the vanishing lines, where the solvers are defined.
 AffineCorrespondence on_wall(SceneGenerator& scene, const RelativePose& T, const Plane& plane) {
   for (;;) {
-    const AffineCorrespondence ac = scene.on_plane(T, plane);
+    AffineCorrespondence ac = scene.on_plane(T, plane);
     if (ac.x1.cwiseAbs().minCoeff() > 0.02) return ac;
   }
 }
@@ -111,8 +111,10 @@ TEST_P(SpecialWall, RecoversFromManyCorrespondences) {
   for (int i = 0; i < 200; ++i) {
     const RelativePose T = scene.planar_motion();
     const Plane plane = GetParam().plane(scene);
+    const int count = 2 + i % 9;
     std::vector<AffineCorrespondence> acs;
-    for (int k = 0; k < 2 + i % 9; ++k) acs.push_back(on_wall(scene, T, plane));
+    acs.reserve(static_cast<std::size_t>(count) + 1);
+    for (int k = 0; k < count; ++k) acs.push_back(on_wall(scene, T, plane));
     std::vector<double> weights(acs.size(), 1.0);
     acs[0] = scene.with_noise(acs[0], 0.1, 0.3);
     weights[0] = 0.0;

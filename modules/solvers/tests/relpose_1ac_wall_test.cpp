@@ -22,7 +22,7 @@ struct Case {
 
 AffineCorrespondence on_wall(SceneGenerator& scene, const RelativePose& T, const Plane& plane) {
   for (;;) {
-    const AffineCorrespondence ac = scene.on_plane(T, plane);
+    AffineCorrespondence ac = scene.on_plane(T, plane);
     if (std::abs(ac.x1.y()) > 0.02 && std::abs(ac.x2.y()) > 0.02) return ac;
   }
 }

@@ -1,6 +1,7 @@
 #include "oneac/study/experiment.h"
 
 #include <stdexcept>
+#include <utility>
 
 namespace oneac {
 namespace {
@@ -11,11 +12,12 @@ using S = StudySweep;
 
 [[nodiscard]] std::vector<double> evenly(double first, double step, int count) {
   std::vector<double> values;
+  values.reserve(static_cast<std::size_t>(count));
   for (int i = 0; i < count; ++i) values.push_back(first + step * i);
   return values;
 }
 
-[[nodiscard]] std::vector<Experiment> all_experiments() {
+[[nodiscard]] std::vector<Experiment> experiments_of_paper() {
   const StudyMethod pc4 = StudyMethod::pc4, ac2 = StudyMethod::ac2;
   return {
       {"forward_ground",
@@ -54,6 +56,12 @@ using S = StudySweep;
        P::front_wall,
        S::tilt,
        {StudyMethod::ac1_front_wall, pc4, ac2}},
+  };
+}
+
+[[nodiscard]] std::vector<Experiment> experiments_of_supplement() {
+  const StudyMethod pc4 = StudyMethod::pc4, ac2 = StudyMethod::ac2;
+  return {
       {"sideways_ground",
        "Sideways motion, ground",
        M::sideways,
@@ -79,6 +87,12 @@ using S = StudySweep;
        S::noise,
        {StudyMethod::ac1_front_wall, StudyMethod::ac1_front_wall_rapid}},
   };
+}
+
+[[nodiscard]] std::vector<Experiment> all_experiments() {
+  std::vector<Experiment> all = experiments_of_paper();
+  for (Experiment& experiment : experiments_of_supplement()) all.push_back(std::move(experiment));
+  return all;
 }
 
 }  // namespace

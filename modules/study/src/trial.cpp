@@ -35,7 +35,7 @@ constexpr int kMaxTries = 100000;
                                            TrialRandom& random) {
   for (int i = 0; i < kMaxTries; ++i) {
     const double x = random.uniform(-kStudyHalfImage, kStudyHalfImage);
-    const Eigen::Vector2d x1(x, random.uniform(-kStudyHalfImage, kStudyHalfImage));
+    Eigen::Vector2d x1(x, random.uniform(-kStudyHalfImage, kStudyHalfImage));
     const double inverse_depth = scene.plane.n.dot(x1.homogeneous()) / scene.plane.d;
     if (!(inverse_depth * kStudyMaxDepth >= 1.0)) continue;
     const Eigen::Vector3d mapped = H * x1.homogeneous();

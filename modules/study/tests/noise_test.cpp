@@ -79,7 +79,7 @@ TEST(Noise, FixedErrorsAreExactlyTheLevelAndEitherSign) {
     EXPECT_NEAR(std::abs(e.small), 0.05, 1e-12);
     positive += e.first * e.second > 0.0 ? 1 : 0;  // signs of their own
   }
-  EXPECT_NEAR(positive, kDraws / 2, 4 * std::sqrt(kDraws / 4.0));
+  EXPECT_NEAR(positive, kDraws / 2.0, 4 * std::sqrt(kDraws / 4.0));
 }
 
 TEST(Noise, UniformErrorsFillTheLevelAndAreIndependent) {
