@@ -1,5 +1,7 @@
 #include "oneac/frontend/suspension_tilt.h"
 
+#include "mainly_forward.h"
+
 #include <Eigen/Dense>
 
 #include <algorithm>
@@ -18,8 +20,6 @@ constexpr double kBend = 2.0;
 constexpr double kTurn = 0.03 * kDegree;
 // [rad/√m] the slope of a road wanders by 1° (1.7 %) in 100 m.
 constexpr double kSlopeWalk = 0.1 * kDegree;
-// cos 25°: beyond it the car manoeuvres.
-constexpr double kMainlyForward = 0.9;
 // [σ] a measurement farther off counts as if it were so far off: a bump is no slope.
 constexpr double kFarthest = 3.0;
 

@@ -1,5 +1,7 @@
 #include "oneac/frontend/tilt_estimator.h"
 
+#include "mainly_forward.h"
+
 #include <Eigen/Geometry>
 
 #include <algorithm>
@@ -10,8 +12,6 @@ namespace oneac {
 namespace {
 
 constexpr double kDegree = 3.14159265358979323846 / 180.0;
-// cos 25°: beyond it the car manoeuvres, and the elevation of t mixes with roll.
-constexpr double kMainlyForward = 0.9;
 // [rad] a direction of travel more than 15° above or below the given horizon is no drive.
 constexpr double kLargestElevation = 0.26;
 // [rad] 1σ of a pitch or roll that somebody states: sensor poses are a degree off.
