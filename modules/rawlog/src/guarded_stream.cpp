@@ -49,6 +49,7 @@ void GuardedStream::begin_record() {
   substitute_.clear();
   expected_ = Expected::anything;
   last_count_ = 0;
+  largest_ = kLargestCount;
   stack_ = stack_address();
 }
 
@@ -123,11 +124,14 @@ void GuardedStream::follow_object(std::uint8_t* buffer, size_t count) {
   }
 }
 
-GuardedStream::Expected GuardedStream::after_class(const std::string& name) const {
+GuardedStream::Expected GuardedStream::after_class(const std::string& name) {
   if (is_abstract(name))
     throw std::runtime_error("it is a " + name + ", which is no class of objects");
   const auto colon = name.rfind(':');  // newer versions store mrpt::img::CImage
   const std::string bare = colon == std::string::npos ? name : name.substr(colon + 1);
+  if (bare == "CPose3DPDFGrid")
+    throw std::runtime_error("it is a " + name + ", too large for a rawlog");
+  largest_ = bare.find("PDF") == std::string::npos ? kLargestCount : kMostModes;
   if (bare == "CImage") return Expected::image_version;
   return bare.rfind("CMatrix", 0) == 0 ? Expected::matrix_version : Expected::anything;
 }
@@ -146,8 +150,7 @@ void GuardedStream::check_count(std::uint8_t* buffer) {
   const std::uint32_t before = std::exchange(last_count_, 0);
   if (before == kWord && is_text(buffer) && is_for_letters(buffer)) return;
   const std::uint32_t count = word_of(buffer);
-  const bool there =
-      count <= kHarmlessCount || (count <= kLargestCount && stream_.has_bytes(count));
+  const bool there = count <= kHarmlessCount || (count <= largest_ && stream_.has_bytes(count));
   if (there && std::uint64_t{before} * count <= kLargestCount) {
     last_count_ = count;
   } else {

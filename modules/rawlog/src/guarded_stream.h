@@ -19,17 +19,21 @@ namespace oneac {
 ///   against the bytes that are left, and read as 0 when there are fewer. The record then fails to
 ///   parse, or the four bytes were a number that nobody here uses: no class whose content is used
 ///   stores such a number in four bytes.
+/// - A count above kLargestCount is never believed, because an element takes up to 100 bytes of
+///   memory for one of the file; in a distribution (500 bytes a mode) none above kMostModes is.
 /// - So is the second of two counts, rows and columns, whose product is above kLargestCount.
 /// - A matrix may not be larger than the rest of the file.
 /// - Images are taken out: MRPT reads an external image whose name is a number, see
 ///   take_images().
-/// - An object of an abstract class ends in an exception: MRPT prints a line of its own about it.
+/// - An object of an abstract class ends in an exception: MRPT prints a line of its own about it;
+///   so does a CPose3DPDFGrid, which takes a gigabyte when it is made, before anything is read.
 /// - A value of which the file has but a part is not there.
 /// - Objects nested deeper than kDeepestStack bytes of stack end in an exception.
 class GuardedStream : public mrpt::io::CStream {
  public:
-  static constexpr std::uint32_t kHarmlessCount = 1U << 16;           ///< elements; never looked at
-  static constexpr std::uint32_t kLargestCount = 1U << 26;            ///< elements; never believed
+  static constexpr std::uint32_t kHarmlessCount = 1U << 16;  ///< elements; never looked at
+  static constexpr std::uint32_t kLargestCount = 1U << 22;   ///< elements; four megapixels
+  static constexpr std::uint32_t kMostModes = 1U << 20;      ///< elements of a distribution
   static constexpr std::size_t kDeepestStack = std::size_t{1} << 19;  ///< [byte]
 
   explicit GuardedStream(DecompressingStream& stream) : stream_(stream) {}
@@ -57,7 +61,7 @@ class GuardedStream : public mrpt::io::CStream {
   void check_count(std::uint8_t* buffer);
   [[nodiscard]] bool is_for_letters(const std::uint8_t* buffer) const;
   void check_matrix(std::uint32_t columns);
-  [[nodiscard]] Expected after_class(const std::string& name) const;
+  [[nodiscard]] Expected after_class(const std::string& name);
 
   DecompressingStream& stream_;
   LogImages images_;
@@ -65,7 +69,8 @@ class GuardedStream : public mrpt::io::CStream {
   Expected expected_ = Expected::anything;
   std::size_t name_length_ = 0;
   std::uint32_t rows_ = 0;
-  std::uint32_t last_count_ = 0;  ///< what the read before was, if a count
+  std::uint32_t last_count_ = 0;           ///< what the read before was, if a count
+  std::uint32_t largest_ = kLargestCount;  ///< in the object that began last
   std::uintptr_t stack_ = 0;
 };
 
