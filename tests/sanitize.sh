@@ -1,9 +1,10 @@
 #!/usr/bin/env bash
 # Builds the tests with sanitizers and runs them; a finding ends the program and fails the script.
 #   tests/sanitize.sh asan-ubsan|tsan [TEST_PROGRAM...]    e.g. tests/sanitize.sh tsan base_test
-# Without programs: the unit tests of all modules, then the program itself in faults_test,
-# integration_test and regression_test (the simulated drives). ONEAC_SANITIZE_FILTER is handed on as
-# --gtest_filter, ONEAC_SANITIZE_JOBS bounds the number of compilers (default: all cores).
+# Without programs: the unit tests of all modules, the fuzzers' corpora, then the program itself in
+# faults_test, integration_test and regression_test, with the real drives where ONEAC_REAL_DATA
+# (default: ../shared/data) holds them. ONEAC_SANITIZE_FILTER is handed on as --gtest_filter,
+# ONEAC_SANITIZE_JOBS bounds the number of compilers (default: all cores).
 set -euo pipefail
 source "$(dirname "${BASH_SOURCE[0]}")/../apps/setup.sh"
 
@@ -32,17 +33,16 @@ export TSAN_OPTIONS="suppressions=$rules/tsan.supp:halt_on_error=1:second_deadlo
 programs=("$@")
 if [ $# -eq 0 ]; then
   mapfile -t programs < <(sed -n 's/^ *oneac_test(\([a-z_]*\).*/\1/p' modules/*/CMakeLists.txt)
-  programs+=(faults_test integration_test regression_test)
+  programs+=(fuzz_replay_test faults_test integration_test regression_test)
 fi
 
-# The drives on real data are the dev build's: ten times slower they show nothing more. So are the
-# bounds on memory of the long log and of the real log's copies.
+export ONEAC_REAL_DATA="${ONEAC_REAL_DATA:-$oneac_root/../shared/data}"
 filter_of() {
-  case $1 in
-    faults_test) echo "${ONEAC_SANITIZE_FILTER:--LongLog.*:MutatedRealLog.*}" ;;
-    regression_test) echo "${ONEAC_SANITIZE_FILTER:-SimulatedDrive.*:HardDrive.*}" ;;
-    *) echo "${ONEAC_SANITIZE_FILTER:-*}" ;;
-  esac
+  local without_data=""
+  if [ ! -d "$ONEAC_REAL_DATA/malaga-07" ] || [ ! -d "$ONEAC_REAL_DATA/kitti-03" ]; then
+    without_data="-Malaga07.*:Kitti03.*:MutatedRealLog.*"
+  fi
+  echo "${ONEAC_SANITIZE_FILTER:-*$without_data}"
 }
 
 stopped=()
@@ -52,7 +52,7 @@ for program in "${programs[@]}"; do
   quietly build_preset "$preset" "${targets[@]}"
   folder=$(dirname "$(find "build/$preset" -name "$program" -type f)")
   echo "oneac: $program ($preset)"
-  (cd "$folder" && "./$program" --gtest_brief=1 --gtest_filter="$(filter_of "$program")") ||
+  (cd "$folder" && "./$program" --gtest_brief=1 --gtest_filter="$(filter_of)") ||
     stopped+=("$program")
 done
 if [ ${#stopped[@]} -gt 0 ]; then

@@ -253,6 +253,10 @@ std::string summary_text(const DriveRecord& record, const RunEvaluation& evaluat
                 path_length(record.camera_trajectory().poses), metric == "none" ? "units" : "m",
                 metric.c_str());
   std::string text = line;
+  if (record.source.undistorted_by_log) {
+    text += "images undistorted by the calibration in the log; if they are rectified, give theirs: "
+            "--calibration\n";
+  }
   if (evaluation.against_poses) {
     text += "against " + evaluation.reference_file + ":\n";
     text += format_table(*evaluation.against_poses, false);

@@ -5,6 +5,7 @@
 #include "oneac/rawlog/log_summary.h"
 #include "oneac/rawlog/rawlog_source.h"
 #include "oneac/test_support/mutation.h"
+#include "oneac/test_support/sanitized.h"
 #include "oneac/test_support/temporary_folder.h"
 
 #include <sys/resource.h>
@@ -29,7 +30,7 @@ namespace {
 
 constexpr unsigned kLongest_s = 10;           // of work: a busy or suspended machine is no hang
 constexpr unsigned kLongestWait_s = 10 * 60;  // without work
-constexpr std::size_t kMostMemory_mb = 1024;
+constexpr std::size_t kMostMemory_mb = kSanitized ? 4096 : 1024;
 constexpr std::size_t kImages = 2;  // decoded per copy; the decoder has faults of its own
 
 enum Ending { kWhole = 0, kFewer = 9, kLossStated = 10, kRefused = 11, kOtherException = 12 };

@@ -60,6 +60,18 @@ TEST_F(SensorFaults, CalibrationOfAnotherResolutionIsRefused) {
               {"64x48", "1024x768", "--calibration"});
 }
 
+// Who has rectified images beside a log with the raw calibration must be able to notice.
+TEST_F(SensorFaults, UndistortingByTheLogIsSaid) {
+  const auto image = test::stored_image("CAM", 0, textured(0));
+  image->cameraParams.setDistortionPlumbBob(-0.3, 0.1, 0, 0);
+  test::write_log(log(), {image});
+  EXPECT_NE(run().out.find("images undistorted by the calibration in the log"), std::string::npos);
+  test::write_bytes(scratch() / "calib.txt", "P0: 60 0 31 0 0 61 23 0 0 0 1 0\n");
+  const ProgramResult given = run({"--calibration", (scratch() / "calib.txt").string()});
+  EXPECT_EQ(given.exit_code, 0) << given.err;
+  EXPECT_EQ(given.out.find("undistorted"), std::string::npos) << given.out;
+}
+
 TEST_F(SensorFaults, NumbersThatAreNoneInGpsReachNoResult) {
   constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
   constexpr double kInfinity = std::numeric_limits<double>::infinity();

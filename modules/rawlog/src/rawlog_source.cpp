@@ -87,6 +87,7 @@ RawlogSource::Impl::Impl(const SourceOptions& options)
       rectified_(!calibration_.is_distorted()),
       undistorter_(calibration_),
       reader_(options.log) {
+  report_.undistorted_by_log = !rectified_ && options_.calibration.empty();
   if (!options_.stereo || chosen_.side == CameraView::Side::left) return;
   throw InputError(options_.log.string() + ": camera '" + chosen_.name + "'",
                    "it is not the left one of a stereo pair",
