@@ -254,8 +254,9 @@ std::string summary_text(const DriveRecord& record, const RunEvaluation& evaluat
                 metric.c_str());
   std::string text = line;
   if (record.source.undistorted_by_log) {
-    text += "images undistorted by the calibration in the log; if they are rectified, give theirs: "
-            "--calibration\n";
+    text +=
+        "images undistorted by the calibration in the log; if they are rectified, give theirs: "
+        "--calibration\n";
   }
   if (evaluation.against_poses) {
     text += "against " + evaluation.reference_file + ":\n";

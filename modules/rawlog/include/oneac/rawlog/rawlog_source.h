@@ -34,7 +34,7 @@ struct SourceReport {
   std::size_t images_missing = 0;  ///< external files that were not found (among those selected)
   std::string first_missing;       ///< name of the first of them
   std::string damage;  ///< one line (file, record, fault, cure) when the log ends badly, else ""
-  VehicleReference reference;  ///< GPS and IMU seen on the way
+  VehicleReference reference;       ///< GPS and IMU seen on the way
   bool undistorted_by_log = false;  ///< images are taken for raw, because the log's calibration is
 };
 
