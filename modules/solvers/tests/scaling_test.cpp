@@ -79,5 +79,25 @@ TEST(Scaling, CircularMotionIsFoundAtAnyAngleOfView) {
   }
 }
 
+// Half of it is nearer to a right angle than to none: the other form of the eigenvector.
+TEST(Scaling, CircularMotionIsFoundThroughTurnsOfMoreThanARightAngle) {
+  SceneGenerator scene(14);
+  for (int i = 0; i < 1000; ++i) {
+    const double side = scene.uniform(-1.0, 1.0) > 0.0 ? 1.0 : -1.0;
+    const double alpha = side * scene.uniform(1.75, 2.2);
+    const RelativePose T{yaw_rotation(std::cos(alpha), std::sin(alpha)),
+                         1.3 * Eigen::Vector3d(std::sin(alpha / 2), 0.0, -std::cos(alpha / 2))};
+    const double azimuth = scene.uniform(-0.1, 0.1) + alpha / 2;  // enters and leaves at the sides
+    const Eigen::Vector3d X1 =
+        scene.uniform(6.0, 10.0) * Eigen::Vector3d(std::sin(azimuth), 0.3, std::cos(azimuth));
+    const Eigen::Vector3d X2 = T.R * X1 + T.t;
+    ASSERT_GT(X2.z(), 0.0) << "scene " << i << " of seed 14";
+    const AffineCorrespondence ac{X1.hnormalized(), X2.hnormalized(), Eigen::Matrix2d::Identity()};
+    const auto found = relpose_1pc_ackermann(AcSpan(&ac, 1));
+    ASSERT_EQ(found.size(), 1u) << "scene " << i << " of seed 14";
+    EXPECT_LT(pose_error(found[0].pose(), T), kExact) << "scene " << i << " of seed 14";
+  }
+}
+
 }  // namespace
 }  // namespace oneac
