@@ -105,6 +105,17 @@ TEST(Essential8pc, RecoversThousandScenesMinimalAndOverdetermined) {
   }
 }
 
+// An essential matrix has no size of its own.
+TEST(PoseFromEssential, DoesNotDependOnTheSizeOfTheMatrix) {
+  SceneGenerator scene(9);
+  for (const double size : {1e-6, 0.1, 1e6}) {
+    const RelativePose T = scene.general_motion();
+    const auto pose = pose_from_essential(size * essential_matrix(T), scattered(scene, T, 5));
+    ASSERT_EQ(pose.size(), 1u) << "size " << size;
+    EXPECT_LT(pose_error(pose[0], T), kExact) << "size " << size;
+  }
+}
+
 TEST(Essential8pc, ResultIsEssentialOnNoisyData) {
   SceneGenerator scene(6);
   const RelativePose T = scene.general_motion();
