@@ -116,6 +116,15 @@ TEST(PoseFromEssential, DoesNotDependOnTheSizeOfTheMatrix) {
   }
 }
 
+TEST(PoseFromEssential, IsEmptyWithoutAPointThatVotes) {
+  SceneGenerator scene(10);
+  const RelativePose T = scene.general_motion();
+  EXPECT_TRUE(pose_from_essential(essential_matrix(T), AcSpan()).empty());
+  auto broken = scattered(scene, T, 5);
+  for (auto& ac : broken) ac.x1.x() = std::nan("");
+  EXPECT_TRUE(pose_from_essential(essential_matrix(T), broken).empty());
+}
+
 TEST(Essential8pc, ResultIsEssentialOnNoisyData) {
   SceneGenerator scene(6);
   const RelativePose T = scene.general_motion();

@@ -1,4 +1,5 @@
 // What must not depend on the size of numbers: weights, coefficients, the angle of view.
+#include "least_squares_null_vector.h"
 #include "point_solver_tools.h"
 #include "polynomial.h"
 
@@ -55,6 +56,34 @@ TEST(Scaling, SizeOfTheCoefficientsDoesNotMatterToTheRoots) {
   ASSERT_EQ(expected.size(), 4);
   ASSERT_EQ(found.size(), 4);
   for (int i = 0; i < 4; ++i) EXPECT_NEAR(found[i], expected[i], 1e-12);
+}
+
+/// Twelve rows that vanish along `null` and are 1e-4 of the others' size along one more direction.
+Eigen::Matrix<double, 12, 4> nearly_two_null_vectors(SceneGenerator& scene, Eigen::Vector4d& null) {
+  Eigen::Matrix<double, 12, 4> rows;
+  Eigen::Vector4d weak;
+  for (double& entry : rows.reshaped()) entry = scene.uniform(-1.0, 1.0);
+  for (double& entry : null) entry = scene.uniform(-1.0, 1.0);
+  for (double& entry : weak) entry = scene.uniform(-1.0, 1.0);
+  null.normalize();
+  weak = (weak - null * null.dot(weak)).normalized();
+  rows -= rows * null * null.transpose();
+  rows -= (1.0 - 1e-4) * rows * weak * weak.transpose();
+  return rows;
+}
+
+// The eigenvector of the normal equations alone is off by 1e-8 here.
+TEST(Scaling, ANullVectorKeepsItsDigitsBesideAWeakSingularValue) {
+  SceneGenerator scene(15);
+  for (int i = 0; i < 100; ++i) {
+    Eigen::Vector4d null;
+    const Eigen::Matrix<double, 12, 4> rows = nearly_two_null_vectors(scene, null);
+    const auto found =
+        internal::least_squares_null_vector<4>([&](auto&& use) { use(rows, 1.0); }, 1e-14);
+    ASSERT_TRUE(found.has_value()) << "case " << i << " of seed 15";
+    EXPECT_LT(1.0 - std::abs(found->dot(null)), 1e-14) << "case " << i << " of seed 15";
+    EXPECT_LT((*found - null * null.dot(*found)).norm(), 1e-10) << "case " << i << " of seed 15";
+  }
 }
 
 /// A point far out in a wide image, x = ±3 of a lens of more than 140°.
