@@ -183,9 +183,21 @@ TEST_P(BatchSolver, LevelsAgree) {
 TEST_P(BatchSolver, MisuseThrowsAndNamesTheArgument) {
   SceneGenerator scene(5);
   Arrays arrays({mixed(scene, 0)});
-  AcArrays no_x2 = arrays.in(0, 1);
-  no_x2.x2 = nullptr;
-  EXPECT_THROW(GetParam().batch(no_x2, arrays.out(), SimdLevel::kBaseline), std::invalid_argument);
+  using In = const double* AcArrays::*;
+  for (const In array : {&AcArrays::x1, &AcArrays::y1, &AcArrays::x2, &AcArrays::y2, &AcArrays::a11,
+                         &AcArrays::a12, &AcArrays::a21, &AcArrays::a22}) {
+    AcArrays acs = arrays.in(0, 1);
+    acs.*array = nullptr;
+    EXPECT_THROW(GetParam().batch(acs, arrays.out(), SimdLevel::kBaseline), std::invalid_argument);
+  }
+  using Out = double* PlanarPoseArrays::*;
+  for (const Out array : {&PlanarPoseArrays::cos_alpha, &PlanarPoseArrays::sin_alpha,
+                          &PlanarPoseArrays::tx, &PlanarPoseArrays::tz}) {
+    PlanarPoseArrays poses = arrays.out();
+    poses.*array = nullptr;
+    EXPECT_THROW(GetParam().batch(arrays.in(0, 1), poses, SimdLevel::kBaseline),
+                 std::invalid_argument);
+  }
   PlanarPoseArrays no_mask = arrays.out();
   no_mask.valid = nullptr;
   EXPECT_THROW(GetParam().batch(arrays.in(0, 1), no_mask, SimdLevel::kBaseline),

@@ -73,6 +73,9 @@ TEST(MinimiseOnCircle, SolvesTheHardCaseAndItsNeighbourhood) {
 TEST(MinimiseOnCircle, HandlesEqualEigenvaluesAndNoRightHandSide) {
   const Eigen::Vector2d h(-0.3, 0.4);
   EXPECT_LT((minimise_on_circle(2.0 * Eigen::Matrix2d::Identity(), h) - h / 0.5).norm(), 1e-14);
+  Eigen::Vector2d far;
+  minimise_far_from_circle({2.0, 0.0, 2.0, h.x(), h.y()}, far.x(), far.y());
+  EXPECT_LT((far - h / 0.5).norm(), 1e-14);
   EXPECT_NEAR(minimise_on_circle(Eigen::Matrix2d::Zero(), Eigen::Vector2d::Zero()).norm(), 1.0,
               1e-15);
   const Eigen::Matrix2d Q = symmetric(1.0, 3.0, 0.4);
