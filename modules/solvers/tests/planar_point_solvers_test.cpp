@@ -56,6 +56,23 @@ TEST(Relpose3pcVertical, TruthIsAmongTheCandidatesWithItsNormal) {
   EXPECT_GE(recovered, 999);
 }
 
+// As on a kerb: what tells the points apart is where along the wall they are.
+TEST(Relpose3pcVertical, PointsOfOneHeightInTheFirstImageWillDo) {
+  SceneGenerator scene(12);
+  for (int i = 0; i < 100; ++i) {
+    const RelativePose T = scene.planar_motion();
+    const Plane plane = wall(scene);
+    std::vector<AffineCorrespondence> row;
+    for (const double x : {-0.4, 0.0, 0.3}) {
+      const Eigen::Vector3d ray(x, 0.25, 1.0);
+      const Eigen::Vector3d X1 = ray * (plane.d / plane.n.dot(ray));
+      row.push_back(
+          {X1.hnormalized(), (T.R * X1 + T.t).hnormalized(), Eigen::Matrix2d::Identity()});
+    }
+    EXPECT_LT(nearest_pose(relpose_3pc_vertical(row), T), 1e-6) << "scene " << i << " of seed 12";
+  }
+}
+
 TEST(Relpose2pcPlanar, TruthIsAmongTheCandidatesOfThousandScenes) {
   SceneGenerator scene(3);
   int recovered = 0;
