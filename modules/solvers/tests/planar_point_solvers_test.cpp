@@ -22,8 +22,7 @@ Plane wall(SceneGenerator& scene) {
 RelativePose ackermann_motion(SceneGenerator& scene) {
   const double alpha = scene.uniform(-0.3, 0.3);
   const double length = scene.uniform(-1, 1) > 0.0 ? 1.3 : -0.7;  // forwards or backwards
-  return {yaw_rotation(std::cos(alpha), std::sin(alpha)),
-          length * Eigen::Vector3d(std::sin(alpha / 2), 0.0, -std::cos(alpha / 2))};
+  return circular_motion(alpha, length);
 }
 
 TEST(Relpose2pcGround, RecoversMetricMotionOfThousandScenes) {
@@ -66,10 +65,9 @@ TEST(Relpose3pcVertical, PointsOfOneHeightInTheFirstImageWillDo) {
     for (const double x : {-0.4, 0.0, 0.3}) {
       const Eigen::Vector3d ray(x, 0.25, 1.0);
       const Eigen::Vector3d X1 = ray * (plane.d / plane.n.dot(ray));
-      row.push_back(
-          {X1.hnormalized(), (T.R * X1 + T.t).hnormalized(), Eigen::Matrix2d::Identity()});
+      row.push_back(in_both_views(T, X1));
     }
-    EXPECT_LT(nearest_pose(relpose_3pc_vertical(row), T), 1e-6) << "scene " << i << " of seed 12";
+    EXPECT_LT(nearest_pose(relpose_3pc_vertical(row), T), kExact) << "scene " << i << " of seed 12";
   }
 }
 

@@ -24,6 +24,17 @@ inline std::vector<AffineCorrespondence> scattered(SceneGenerator& scene, const 
   return acs;
 }
 
+/// A point of the first camera's frame in both views, without an affinity of its own.
+inline AffineCorrespondence in_both_views(const RelativePose& T, const Eigen::Vector3d& X1) {
+  return {X1.hnormalized(), (T * X1).hnormalized(), Eigen::Matrix2d::Identity()};
+}
+
+/// Along a circle, turning by alpha [rad], forwards where the length of the chord is positive.
+inline RelativePose circular_motion(double alpha, double length) {
+  return {yaw_rotation(std::cos(alpha), std::sin(alpha)),
+          length * Eigen::Vector3d(std::sin(alpha / 2), 0.0, -std::cos(alpha / 2))};
+}
+
 inline std::vector<AffineCorrespondence> on_one_plane(SceneGenerator& scene, const RelativePose& T,
                                                       const Plane& plane, int count) {
   std::vector<AffineCorrespondence> acs;

@@ -91,16 +91,14 @@ AffineCorrespondence far_out(SceneGenerator& scene, const RelativePose& T) {
   const double side = scene.uniform(-1.0, 1.0) > 0.0 ? 1.0 : -1.0;
   const double depth = scene.uniform(6.0, 10.0);
   const Eigen::Vector3d X1(side * scene.uniform(2.8, 3.2) * depth, 0.3 * depth, depth);
-  const Eigen::Vector3d X2 = T.R * X1 + T.t;
-  return {X1.hnormalized(), X2.hnormalized(), Eigen::Matrix2d::Identity()};
+  return in_both_views(T, X1);
 }
 
 TEST(Scaling, CircularMotionIsFoundAtAnyAngleOfView) {
   SceneGenerator scene(13);
   for (int i = 0; i < 1000; ++i) {
     const double alpha = scene.uniform(-0.05, 0.05);
-    const RelativePose T{yaw_rotation(std::cos(alpha), std::sin(alpha)),
-                         1.3 * Eigen::Vector3d(std::sin(alpha / 2), 0.0, -std::cos(alpha / 2))};
+    const RelativePose T = circular_motion(alpha, 1.3);
     const AffineCorrespondence ac = far_out(scene, T);
     const auto found = relpose_1pc_ackermann(AcSpan(&ac, 1));
     ASSERT_EQ(found.size(), 1u) << "scene " << i << " of seed 13";
@@ -114,14 +112,12 @@ TEST(Scaling, CircularMotionIsFoundThroughTurnsOfMoreThanARightAngle) {
   for (int i = 0; i < 1000; ++i) {
     const double side = scene.uniform(-1.0, 1.0) > 0.0 ? 1.0 : -1.0;
     const double alpha = side * scene.uniform(1.75, 2.2);
-    const RelativePose T{yaw_rotation(std::cos(alpha), std::sin(alpha)),
-                         1.3 * Eigen::Vector3d(std::sin(alpha / 2), 0.0, -std::cos(alpha / 2))};
+    const RelativePose T = circular_motion(alpha, 1.3);
     const double azimuth = scene.uniform(-0.1, 0.1) + alpha / 2;  // enters and leaves at the sides
     const Eigen::Vector3d X1 =
         scene.uniform(6.0, 10.0) * Eigen::Vector3d(std::sin(azimuth), 0.3, std::cos(azimuth));
-    const Eigen::Vector3d X2 = T.R * X1 + T.t;
-    ASSERT_GT(X2.z(), 0.0) << "scene " << i << " of seed 14";
-    const AffineCorrespondence ac{X1.hnormalized(), X2.hnormalized(), Eigen::Matrix2d::Identity()};
+    ASSERT_GT((T * X1).z(), 0.0) << "scene " << i << " of seed 14";
+    const AffineCorrespondence ac = in_both_views(T, X1);
     const auto found = relpose_1pc_ackermann(AcSpan(&ac, 1));
     ASSERT_EQ(found.size(), 1u) << "scene " << i << " of seed 14";
     EXPECT_LT(pose_error(found[0].pose(), T), kExact) << "scene " << i << " of seed 14";
