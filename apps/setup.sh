@@ -49,6 +49,13 @@ build_preset() {
   (cd "$oneac_root" && cmake --build --preset "$preset" ${1:+--target "$@"})
 }
 
+# find_real_drives: exports the folder of the real drives, ONEAC_REAL_DATA (default: ../shared/data);
+# fails where it does not hold them.
+find_real_drives() {
+  export ONEAC_REAL_DATA="${ONEAC_REAL_DATA:-$oneac_root/../shared/data}"
+  [ -d "$ONEAC_REAL_DATA/malaga-07" ] && [ -d "$ONEAC_REAL_DATA/kitti-03" ]
+}
+
 # quietly COMMAND...: runs it and prints its last line; what failed, when it fails.
 quietly() {
   local log failed=0

@@ -7,9 +7,8 @@ source "$(dirname "${BASH_SOURCE[0]}")/../apps/setup.sh"
 install_packages build test
 quietly build_preset dev
 
-export ONEAC_REAL_DATA="${ONEAC_REAL_DATA:-$oneac_root/../shared/data}"
 without_data=()
-if [ ! -d "$ONEAC_REAL_DATA/malaga-07" ] || [ ! -d "$ONEAC_REAL_DATA/kitti-03" ]; then
+if ! find_real_drives; then
   echo "oneac: no drives in $ONEAC_REAL_DATA: the tests on real data are not run"
   without_data=(--label-exclude real_data)
 fi

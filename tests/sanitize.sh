@@ -36,14 +36,9 @@ if [ $# -eq 0 ]; then
   programs+=(fuzz_replay_test faults_test integration_test regression_test)
 fi
 
-export ONEAC_REAL_DATA="${ONEAC_REAL_DATA:-$oneac_root/../shared/data}"
-filter_of() {
-  local without_data=""
-  if [ ! -d "$ONEAC_REAL_DATA/malaga-07" ] || [ ! -d "$ONEAC_REAL_DATA/kitti-03" ]; then
-    without_data="-Malaga07.*:Kitti03.*:MutatedRealLog.*"
-  fi
-  echo "${ONEAC_SANITIZE_FILTER:-*$without_data}"
-}
+filter="*"
+find_real_drives || filter="*-Malaga07.*:Kitti03.*:MutatedRealLog.*"
+filter="${ONEAC_SANITIZE_FILTER:-$filter}"
 
 stopped=()
 for program in "${programs[@]}"; do
@@ -52,7 +47,7 @@ for program in "${programs[@]}"; do
   quietly build_preset "$preset" "${targets[@]}"
   folder=$(dirname "$(find "build/$preset" -name "$program" -type f)")
   echo "oneac: $program ($preset)"
-  (cd "$folder" && "./$program" --gtest_brief=1 --gtest_filter="$(filter_of)") ||
+  (cd "$folder" && "./$program" --gtest_brief=1 --gtest_filter="$filter") ||
     stopped+=("$program")
 done
 if [ ${#stopped[@]} -gt 0 ]; then
