@@ -5,6 +5,7 @@
 #include "oneac/rawlog/log_summary.h"
 #include "oneac/rawlog/rawlog_source.h"
 #include "oneac/test_support/mutation.h"
+#include "oneac/test_support/peak_memory.h"
 #include "oneac/test_support/sanitized.h"
 #include "oneac/test_support/temporary_folder.h"
 
@@ -159,8 +160,7 @@ Outcome read_copy(const Original& original, std::uint64_t seed, const std::files
   int status = 0;
   rusage usage{};
   ::wait4(child, &status, 0, &usage);
-  return {WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status),
-          static_cast<std::size_t>(usage.ru_maxrss) / 1024U};
+  return {WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status), peak_mb(usage)};
 }
 
 bool is_sound(const Outcome& outcome) {

@@ -5,6 +5,7 @@
 #include "log_reader.h"
 
 #include "oneac/rawlog/rawlog_source.h"
+#include "oneac/test_support/peak_memory.h"
 #include "oneac/test_support/temporary_folder.h"
 
 #include <gtest/gtest.h>
@@ -12,7 +13,6 @@
 #include <mrpt/obs/CObservation2DRangeScan.h>
 #include <mrpt/obs/CObservation3DRangeScan.h>
 #include <mrpt/obs/CSensoryFrame.h>
-#include <sys/resource.h>
 
 #include <opencv2/imgproc.hpp>
 
@@ -20,12 +20,6 @@ namespace oneac {
 namespace {
 
 using test::Packing;
-
-std::size_t peak_mb() {
-  rusage usage{};
-  getrusage(RUSAGE_SELF, &usage);
-  return static_cast<std::size_t>(usage.ru_maxrss) / 1024U;
-}
 
 class Guarded : public ::testing::Test {
  protected:

@@ -1,5 +1,7 @@
 #include "oneac/test_support/program.h"
 
+#include "oneac/test_support/peak_memory.h"
+
 #include <fcntl.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
@@ -87,7 +89,7 @@ ProgramResult RunningProgram::wait() {
   result.exit_code = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
   result.out = content_of(folder_.path() / "out");
   result.err = content_of(folder_.path() / "err");
-  result.peak_mb = static_cast<std::size_t>(usage.ru_maxrss) / 1024U;
+  result.peak_mb = peak_mb(usage);
   result.cpu_seconds = seconds_of(usage.ru_utime) + seconds_of(usage.ru_stime);
   return result;
 }
