@@ -53,12 +53,13 @@ void FeatureStatistics::add(const RunMoment& moment) {
   PairFeatures features;
   features.index1 = frame.step->index1;
   features.index2 = frame.step->index2;
-  features.acs = moment.pair.acs.size();
+  features.acs = moment.pair.size();
   features.standing = moment.pair.standing;
   features.decode_ms = moment.record.decode_ms.back();
   features.features_ms = frame.step->features_ms;
   std::vector<double> motions;
-  for (const AffineCorrespondence& ac : moment.pair.acs) motions.push_back((ac.x2 - ac.x1).norm());
+  for (const AffineCorrespondence& ac : moment.pair.correspondences)
+    motions.push_back((ac.x2 - ac.x1).norm());
   features.motion_px = median(std::move(motions));
   follow(moment.pair, features);
   const std::vector<double> residuals = judge(moment, *frame.step);
@@ -68,10 +69,10 @@ void FeatureStatistics::add(const RunMoment& moment) {
 
 void FeatureStatistics::follow(const TrackedPair& pair, PairFeatures& features) {
   std::unordered_map<std::uint64_t, std::size_t> now;
-  for (const std::uint64_t track : pair.tracks) {
-    const auto known = alive_.find(track);
+  for (const Correspondence& ac : pair.correspondences) {
+    const auto known = alive_.find(ac.track);
     if (known != alive_.end()) ++features.followed;
-    now[track] = known != alive_.end() ? known->second + 1 : 2;  // a pair is two images
+    now[ac.track] = known != alive_.end() ? known->second + 1 : 2;  // a pair is two images
   }
   for (const auto& [track, images] : alive_) {
     if (now.count(track) == 0) ++lengths_[images];
@@ -90,7 +91,7 @@ std::vector<double> FeatureStatistics::judge(const RunMoment& moment, const Step
   const PinholeCamera& camera = moment.record.camera;
   const Eigen::Matrix3d E = essential_matrix(step.pose);
   const double bound = threshold_px_ / camera.focal_px();
-  for (const AffineCorrespondence& ac_px : moment.pair.acs) {
+  for (const AffineCorrespondence& ac_px : moment.pair.correspondences) {
     const AffineCorrespondence ac = normalise(ac_px, camera, camera);
     if (!(std::abs(sampson_distance(E, ac.x1, ac.x2)) <= bound)) continue;
     const double slope = (E.transpose() * ac.x2.homogeneous()).head<2>().norm();

@@ -117,9 +117,9 @@ Snapshot snapshot_of(const DriveRecord& record, const RunOptions& options, const
   snapshot.width = second.image.width();
   snapshot.height = second.image.height();
   snapshot.jpeg = jpeg_of(second.image.view());
-  snapshot.acs = pair.acs;
+  snapshot.acs = affine_parts(pair);
   const double bound = options.front_end.consensus.threshold_px / second.camera.focal_px();
-  for (const AffineCorrespondence& ac : pair.acs) {
+  for (const AffineCorrespondence& ac : snapshot.acs) {
     const double r = distance(step.pose, normalise(ac, first.camera, second.camera));
     snapshot.inlier.push_back(r <= bound);
   }

@@ -151,7 +151,7 @@ std::vector<RelativePose> hypotheses(const AffineCorrespondence& ac) {
 void judge(const TrackedPair& pair, const RelativePose& truth, const Settings& s, Tally& tally) {
   const Eigen::Matrix3d L = leveling_rotation(s.tilt);
   const RelativePose level_truth = level(truth, L);
-  for (const auto& ac_px : pair.acs) {
+  for (const auto& ac_px : pair.correspondences) {
     ++tally.judged;
     const auto ac = rotate_views(normalise(ac_px, s.camera, s.camera), L, L);
     if (!ac) continue;
@@ -171,9 +171,9 @@ void judge(const TrackedPair& pair, const RelativePose& truth, const Settings& s
 void dump(std::ofstream& out, std::size_t one, std::size_t two, const TrackedPair& pair) {
   const std::array<std::int32_t, 3> head = {static_cast<std::int32_t>(one),
                                             static_cast<std::int32_t>(two),
-                                            static_cast<std::int32_t>(pair.acs.size())};
+                                            static_cast<std::int32_t>(pair.size())};
   out.write(reinterpret_cast<const char*>(head.data()), sizeof head);
-  for (const auto& ac : pair.acs) {
+  for (const auto& ac : pair.correspondences) {
     const std::array<double, 8> v = {ac.x1.x(),  ac.x1.y(),  ac.x2.x(),  ac.x2.y(),
                                      ac.A(0, 0), ac.A(0, 1), ac.A(1, 0), ac.A(1, 1)};
     out.write(reinterpret_cast<const char*>(v.data()), sizeof v);
@@ -219,7 +219,7 @@ void run(const Settings& s, std::vector<Contestant>& all) {
       if (done == 0) continue;
       c.tally.prepare_ms.push_back(middle - start);
       c.tally.advance_ms.push_back(end - middle);
-      c.tally.acs.push_back(static_cast<double>(pair.acs.size()));
+      c.tally.acs.push_back(static_cast<double>(pair.size()));
       if (c.out.is_open()) dump(c.out, last, i, pair);
       if (i < poses.size()) {
         const RelativePose truth = relative(poses[last], poses[i]);

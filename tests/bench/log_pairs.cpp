@@ -27,9 +27,9 @@ std::vector<LogPair> pairs_of_log(const std::string& log, std::size_t every,
     hint.camera = now.camera;
     hint.R_level_cam = leveling_rotation(tilt_from_mounting(now.T_vehicle_cam.linear()));
     const bool first = before.camera.width == 0;
-    TrackedPair tracked = tracker->advance(tracker->prepare(now.image.view()), hint);
+    const TrackedPair tracked = tracker->advance(tracker->prepare(now.image.view()), hint);
     if (!first) {
-      LogPair pair{before.index, now.index, std::move(tracked.acs), hint.R_level_cam,
+      LogPair pair{before.index, now.index, affine_parts(tracked), hint.R_level_cam,
                    now.camera.focal_px()};
       for (AffineCorrespondence& ac : pair.acs) ac = normalise(ac, before.camera, now.camera);
       const RobustResult seen = one_ac_consensus(pair.acs, pair.R_level_cam, pair.focal_px, {});

@@ -18,7 +18,7 @@ std::vector<AffineCorrespondence> PairExtractor::correspond(
   MotionHint hint;
   hint.camera = camera;
   static_cast<void>(tracker->advance(std::move(first), hint));
-  return tracker->advance(std::move(second), hint).acs;
+  return affine_parts(tracker->advance(std::move(second), hint));
 }
 
 StreamImage::StreamImage(const RawlogSource& source, const PairExtractor& extractor,

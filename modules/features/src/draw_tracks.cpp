@@ -10,7 +10,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstddef>
 #include <string_view>
 #include <vector>
 
@@ -26,10 +25,10 @@ cv::Point fixed_point(const Eigen::Vector2d& u) {
           static_cast<int>(std::lround(u.y() * kFraction))};
 }
 
-cv::Scalar colour_of(const TrackedPair& pair, std::size_t i) {
-  if (pair.standing) return {255, 128, 0};
-  const double sigma = i < pair.affine_sigma.size() ? static_cast<double>(pair.affine_sigma[i]) : 0;
-  const double poor = std::clamp((sigma - kGoodSigma) / (kPoorSigma - kGoodSigma), 0.0, 1.0);
+cv::Scalar colour_of(const Correspondence& ac, bool standing) {
+  if (standing) return {255, 128, 0};
+  const double poor =
+      std::clamp((ac.affine_sigma - kGoodSigma) / (kPoorSigma - kGoodSigma), 0.0, 1.0);
   return {0, 255.0 * (1.0 - poor), 255.0 * poor};
 }
 
@@ -52,8 +51,8 @@ void draw_tracks(const ImageView& image, const TrackedPair& pair, const std::fil
                      static_cast<std::size_t>(image.stride));
   cv::Mat canvas;
   cv::cvtColor(grey, canvas, cv::COLOR_GRAY2BGR);
-  for (std::size_t i = 0; i < pair.acs.size(); ++i) {
-    if (pair.acs[i].is_finite()) draw(canvas, pair.acs[i], colour_of(pair, i), half_side_px);
+  for (const Correspondence& ac : pair.correspondences) {
+    if (ac.is_finite()) draw(canvas, ac, colour_of(ac, pair.standing), half_side_px);
   }
   std::vector<std::uint8_t> bytes;
   if (!cv::imencode(".png", canvas, bytes)) {

@@ -3,6 +3,7 @@
 #include "flow_search.h"
 #include "point_bins.h"
 #include "standing.h"
+#include "with_quality.h"
 
 #include <Eigen/LU>
 
@@ -32,12 +33,8 @@ double median_flow(const std::vector<KltTrack>& tracks,
   return *middle;
 }
 
-void append(TrackedPair& pair, const KltTrack& track, const PatchMatch& match) {
-  pair.acs.push_back({track.u, match.warp.centre, match.warp.M});
-  pair.tracks.push_back(track.id);
-  pair.affine_sigma.push_back(static_cast<float>(match.quality.affine_sigma));
-  pair.point_sigma.push_back(static_cast<float>(match.quality.point_sigma));
-  pair.perspective.push_back(match.quality.perspective.cast<float>());
+Correspondence correspondence_of(const KltTrack& track, const PatchMatch& match) {
+  return with_quality({track.u, match.warp.centre, match.warp.M}, track.id, match.quality);
 }
 
 }  // namespace
@@ -86,7 +83,7 @@ TrackedPair KltTracker::stand() {
   for (KltTrack& track : tracks_) {
     PatchMatch same;
     same.warp.centre = track.u;
-    append(pair, track, same);
+    pair.correspondences.push_back(correspondence_of(track, same));
     history_.extend(track.id, frame_, track.u, Eigen::Matrix2d::Identity());
   }
   return pair;
@@ -144,7 +141,7 @@ TrackedPair KltTracker::take(const KltFrame& now, const MotionPrediction& motion
     }
     if (!taken.is_free(u2, kMerge * options_.klt.min_distance_px)) continue;
     taken.add(u2);
-    if (!rests) append(pair, track, *matches[i]);
+    if (!rests) pair.correspondences.push_back(correspondence_of(track, *matches[i]));
     history_.extend(track.id, frame_, u2, matches[i]->warp.M);
     track.A = matches[i]->warp.M;
     track.flow = u2 - track.u;

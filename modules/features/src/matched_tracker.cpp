@@ -1,6 +1,7 @@
 #include "matched_tracker.h"
 
 #include "patch_flow.h"
+#include "with_quality.h"
 
 #include <algorithm>
 #include <stdexcept>
@@ -10,11 +11,11 @@ namespace {
 
 constexpr int kAlignmentLevels = 2;
 
-double median_shift(const std::vector<AffineCorrespondence>& acs) {
-  if (acs.empty()) return 1e9;  // nothing in common is no standing car
+double median_shift(const TrackedPair& pair) {
+  if (pair.empty()) return 1e9;  // nothing in common is no standing car
   std::vector<double> shifts;
-  shifts.reserve(acs.size());
-  for (const auto& ac : acs) shifts.push_back((ac.x2 - ac.x1).norm());
+  shifts.reserve(pair.size());
+  for (const auto& ac : pair.correspondences) shifts.push_back((ac.x2 - ac.x1).norm());
   const auto middle = shifts.begin() + static_cast<std::ptrdiff_t>(shifts.size() / 2);
   std::nth_element(shifts.begin(), middle, shifts.end());
   return *middle;
@@ -38,16 +39,15 @@ bool MatchedTracker::usable(const AffineCorrespondence& ac) const {
   return mask_.usable(ac.x1) && mask_.usable(ac.x2);
 }
 
-void MatchedTracker::append(const AffineCorrespondence& matched,
-                            const AffineCorrespondence& aligned,
-                            const std::map<Place, std::uint64_t>& known, TrackedPair& pair) {
+std::uint64_t MatchedTracker::carry_on(const AffineCorrespondence& matched,
+                                       const AffineCorrespondence& aligned,
+                                       const std::map<Place, std::uint64_t>& known) {
   const auto found = known.find({matched.x1.x(), matched.x1.y()});
   const std::uint64_t id = found != known.end() ? found->second : next_id_++;
   if (found == known.end()) history_.start(id, frame_ - 1, aligned.x1);
   history_.extend(id, frame_, aligned.x2, aligned.A);
   tracks_[{matched.x2.x(), matched.x2.y()}] = id;
-  pair.acs.push_back(aligned);
-  pair.tracks.push_back(id);
+  return id;
 }
 
 TrackedPair MatchedTracker::advance(std::shared_ptr<const FrameFeatures> now, const MotionHint&) {
@@ -72,13 +72,11 @@ TrackedPair MatchedTracker::advance(std::shared_ptr<const FrameFeatures> now, co
         aligned = {ac.x1, match->warp.centre, match->warp.M};
         quality = match->quality;
       }
-      append(ac, aligned, known, pair);
-      pair.affine_sigma.push_back(static_cast<float>(quality.affine_sigma));
-      pair.point_sigma.push_back(static_cast<float>(quality.point_sigma));
-      pair.perspective.push_back(quality.perspective.cast<float>());
+      const std::uint64_t track = carry_on(ac, aligned, known);
+      pair.correspondences.push_back(with_quality(aligned, track, quality));
     }
     history_.end_all_but(frame_);
-    pair.standing = median_shift(pair.acs) < options_.klt.standing_px;
+    pair.standing = median_shift(pair) < options_.klt.standing_px;
   }
   last_ = frame;
   return pair;

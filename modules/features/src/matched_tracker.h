@@ -36,8 +36,10 @@ class MatchedTracker : public AcTracker {
   using Place = std::pair<double, double>;  ///< a feature's centre: the same bytes in both pairs
 
   [[nodiscard]] bool usable(const AffineCorrespondence& ac) const;
-  void append(const AffineCorrespondence& matched, const AffineCorrespondence& aligned,
-              const std::map<Place, std::uint64_t>& known, TrackedPair& pair);
+  /// Number of the track that a match carries on or begins, as it was aligned.
+  [[nodiscard]] std::uint64_t carry_on(const AffineCorrespondence& matched,
+                                       const AffineCorrespondence& aligned,
+                                       const std::map<Place, std::uint64_t>& known);
 
   FeatureOptions options_;
   FeatureMask mask_;

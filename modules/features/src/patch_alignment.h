@@ -32,7 +32,7 @@ struct AlignmentQuality {
   double zncc = -1.0;         ///< zero-mean normalised cross-correlation, window's weights
   double affine_sigma = 0.0;  ///< 1σ of an entry of A [-]; root mean square of the four
   double point_sigma = 0.0;   ///< 1σ of the point per axis [px of level 0]
-  Eigen::Matrix2d perspective = Eigen::Matrix2d::Zero();  ///< see TrackedPair [px² of level 0]
+  Eigen::Matrix2d perspective = Eigen::Matrix2d::Zero();  ///< see Correspondence [px² of level 0]
 };
 
 /// Inverse compositional alignment of shift, gain and bias. The window's pixels are the other

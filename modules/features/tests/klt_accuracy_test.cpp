@@ -55,14 +55,12 @@ Errors errors_over(std::uint64_t seed, int pairs, double strength) {
     first.noise = second.noise;
     second.seed = seed + 1000 + static_cast<std::uint64_t>(i);
     const TrackedPair pair = tracked(texture, first, second);
-    for (std::size_t k = 0; k < pair.acs.size(); ++k) {
-      const auto& ac = pair.acs[k];
+    for (const Correspondence& ac : pair.correspondences) {
       const double affine = (ac.A - second.A).norm(), point = (ac.x2 - second.map(ac.x1)).norm();
       errors.affine.push_back(affine);
       errors.point.push_back(point);
-      errors.affine_in_sigmas.push_back(affine / 2.0 / static_cast<double>(pair.affine_sigma[k]));
-      errors.point_in_sigmas.push_back(point / std::sqrt(2.0) /
-                                       static_cast<double>(pair.point_sigma[k]));
+      errors.affine_in_sigmas.push_back(affine / 2.0 / ac.affine_sigma);
+      errors.point_in_sigmas.push_back(point / std::sqrt(2.0) / ac.point_sigma);
     }
   }
   return errors;
@@ -99,11 +97,10 @@ TEST(KltAccuracy, TellsHowFarPerspectiveShiftsAPatch) {
     first.noise = second.noise = 1.0;
     const Texture texture(seed);
     const TrackedPair pair = tracked(texture, first, second);
-    for (std::size_t k = 0; k < pair.acs.size(); ++k) {
-      const auto& ac = pair.acs[k];
+    for (const Correspondence& ac : pair.correspondences) {
       const Eigen::Vector2d d = ac.x1 - first.centre();
       const Eigen::Vector2d eta = second.bend / (1.0 + second.bend.dot(d));
-      const Eigen::Vector2d shift = ac.A * (pair.perspective[k].cast<double>() * eta);
+      const Eigen::Vector2d shift = ac.A * (ac.perspective * eta);
       const double error = (ac.x2 - second.map(ac.x1)).y();
       found.push_back(error);
       corrected.push_back(error + shift.y());

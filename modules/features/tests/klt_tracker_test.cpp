@@ -1,4 +1,5 @@
 #include "texture.h"
+#include "track_numbers.h"
 
 #include "oneac/base/error.h"
 #include "oneac/features/ac_tracker.h"
@@ -45,23 +46,23 @@ TrackedPair feed(AcTracker& tracker, const GreyImage& image, const MotionHint& h
   return tracker.advance(tracker.prepare(image.view()), hint);
 }
 
+bool same_bytes(const Correspondence& a, const Correspondence& b) {
+  return a.track == b.track && a.x1 == b.x1 && a.x2 == b.x2 && a.A == b.A &&
+         a.affine_sigma == b.affine_sigma && a.point_sigma == b.point_sigma &&
+         a.perspective == b.perspective;
+}
+
 bool same_bytes(const TrackedPair& a, const TrackedPair& b) {
-  if (a.tracks != b.tracks || a.affine_sigma != b.affine_sigma || a.point_sigma != b.point_sigma ||
-      a.acs.size() != b.acs.size()) {
-    return false;
-  }
-  for (std::size_t i = 0; i < a.acs.size(); ++i) {
-    if (a.acs[i].x1 != b.acs[i].x1 || a.acs[i].x2 != b.acs[i].x2 || a.acs[i].A != b.acs[i].A) {
-      return false;
-    }
-  }
-  return true;
+  return std::equal(
+      a.correspondences.begin(), a.correspondences.end(), b.correspondences.begin(),
+      b.correspondences.end(),
+      [](const Correspondence& one, const Correspondence& two) { return same_bytes(one, two); });
 }
 
 TEST(KltTracker, GivesNothingForTheFirstFrame) {
   const auto tracker = make_tracker(klt());
   const TrackedPair pair = feed(*tracker, render(Texture(1), shifted(0, 0)));
-  EXPECT_TRUE(pair.acs.empty());
+  EXPECT_TRUE(pair.empty());
   EXPECT_FALSE(pair.standing);
 }
 
@@ -70,10 +71,10 @@ TEST(KltTracker, SpreadsCorrespondencesOverTheImage) {
   feed(*tracker, render(Texture(2), shifted(0, 0)));
   const TrackedPair pair = feed(*tracker, render(Texture(2), shifted(3, 1)));
   std::map<int, int> per_block;  // 4 × 3 blocks
-  for (const auto& ac : pair.acs) {
+  for (const auto& ac : pair.correspondences) {
     ++per_block[static_cast<int>(ac.x1.y() / 120.0) * 4 + static_cast<int>(ac.x1.x() / 120.0)];
   }
-  EXPECT_GT(pair.acs.size(), 300U);
+  EXPECT_GT(pair.size(), 300U);
   EXPECT_EQ(per_block.size(), 12U);
   for (const auto& [block, count] : per_block) EXPECT_GT(count, 12) << block;
 }
@@ -85,7 +86,7 @@ TEST(KltTracker, FollowsTracksAndComposesTheirAffinities) {
   for (int frame = 0; frame <= 8; ++frame) pair = feed(*tracker, render(texture, drive(frame)));
   const View last = drive(8);
   std::vector<double> affine, point;
-  for (const std::uint64_t track : pair.tracks) {
+  for (const std::uint64_t track : track_numbers(pair)) {
     const auto ac = tracker->between(track, 0, 8);
     if (!ac) continue;
     affine.push_back((ac->A - last.A).norm());
@@ -97,7 +98,7 @@ TEST(KltTracker, FollowsTracksAndComposesTheirAffinities) {
   ASSERT_GT(affine.size(), 150U);
   EXPECT_LT(median_of(affine), 0.03);
   EXPECT_LT(median_of(point), 0.3);
-  EXPECT_FALSE(tracker->between(pair.tracks.front(), 0, 9));
+  EXPECT_FALSE(tracker->between(pair.correspondences.front().track, 0, 9));
 }
 
 TEST(KltTracker, NeverUsesATrackNumberTwice) {
@@ -107,11 +108,11 @@ TEST(KltTracker, NeverUsesATrackNumberTwice) {
   for (int frame = 0; frame <= 6; ++frame) {
     const TrackedPair pair = feed(*tracker, render(texture, drive(frame)));
     std::map<std::uint64_t, Eigen::Vector2d> now;
-    for (std::size_t i = 0; i < pair.tracks.size(); ++i) {
-      EXPECT_TRUE(now.emplace(pair.tracks[i], pair.acs[i].x2).second);
-      const auto before = places.find(pair.tracks[i]);
+    for (std::size_t i = 0; i < pair.size(); ++i) {
+      EXPECT_TRUE(now.emplace(pair.correspondences[i].track, pair.correspondences[i].x2).second);
+      const auto before = places.find(pair.correspondences[i].track);
       if (before != places.end()) {
-        EXPECT_TRUE(before->second == pair.acs[i].x1);
+        EXPECT_TRUE(before->second == pair.correspondences[i].x1);
       }
     }
     places = now;
@@ -140,14 +141,15 @@ TEST(KltTracker, ReportsStandingAndKeepsTheTracks) {
     same.seed = 500 + static_cast<std::uint64_t>(i);
     const TrackedPair pair = feed(*tracker, render(texture, same));
     ASSERT_TRUE(pair.standing) << i;
-    for (const auto& ac : pair.acs) EXPECT_TRUE(ac.x1 == ac.x2);
+    for (const auto& ac : pair.correspondences) EXPECT_TRUE(ac.x1 == ac.x2);
   }
   const TrackedPair again = feed(*tracker, render(texture, drive(2)));
   EXPECT_FALSE(again.standing);
-  const std::set<std::uint64_t> before(moving.tracks.begin(), moving.tracks.end());
+  const auto numbers = track_numbers(moving);
+  const std::set<std::uint64_t> before(numbers.begin(), numbers.end());
   std::size_t kept = 0;
-  for (const std::uint64_t track : again.tracks) kept += before.count(track);
-  EXPECT_GT(kept, moving.tracks.size() * 8 / 10);
+  for (const std::uint64_t track : track_numbers(again)) kept += before.count(track);
+  EXPECT_GT(kept, moving.size() * 8 / 10);
 }
 
 TEST(KltTracker, LetsCreepingAddUpInsteadOfLosingIt) {
@@ -160,7 +162,7 @@ TEST(KltTracker, LetsCreepingAddUpInsteadOfLosingIt) {
     const TrackedPair pair = feed(*tracker, render(texture, shifted(0.06 * frame, 0.0)));
     stood = stood || pair.standing;
     std::vector<double> flow;
-    for (const auto& ac : pair.acs) flow.push_back(ac.x2.x() - ac.x1.x());
+    for (const auto& ac : pair.correspondences) flow.push_back(ac.x2.x() - ac.x1.x());
     ASSERT_FALSE(flow.empty());
     sum += median_of(flow);
   }
@@ -190,7 +192,7 @@ TEST(KltTracker, DropsWhatMovesWithTheCamera) {
       std::copy(car.row(v), car.row(v) + image.width(), image.row(v));
     }
     const TrackedPair pair = feed(*tracker, image, turning());
-    for (const auto& ac : pair.acs) {
+    for (const auto& ac : pair.correspondences) {
       if (ac.x2.y() > kBonnet + 20) ++on_bonnet;
       if (ac.x2.y() < kBonnet - 20) ++in_world;
     }
@@ -220,7 +222,7 @@ TEST(KltTracker, PredictsTheRoadFromTheMotion) {
     const auto tracker = make_tracker(klt());
     feed(*tracker, paint(0.0), given);
     std::size_t right = 0;
-    for (const auto& ac : feed(*tracker, paint(0.8), given).acs) {
+    for (const auto& ac : feed(*tracker, paint(0.8), given).correspondences) {
       const double depth = 500.0 / (ac.x1.y() - 180.0);
       const double scale = depth / (depth - 0.8);
       const Eigen::Vector2d centre(240.0, 180.0);
@@ -237,15 +239,15 @@ TEST(KltTracker, StartsAnewAfterReset) {
   feed(*tracker, render(Texture(11), shifted(0, 0)));
   const TrackedPair pair = feed(*tracker, render(Texture(11), shifted(4, 0)));
   tracker->reset();
-  EXPECT_TRUE(feed(*tracker, render(Texture(11), shifted(8, 0))).acs.empty());
-  EXPECT_FALSE(tracker->between(pair.tracks.front(), 0, 1));
+  EXPECT_TRUE(feed(*tracker, render(Texture(11), shifted(8, 0))).empty());
+  EXPECT_FALSE(tracker->between(pair.correspondences.front().track, 0, 1));
 }
 
 TEST(KltTracker, HasNothingToSayAboutABlankImage) {
   const auto tracker = make_tracker(klt());
   for (int i = 0; i < 3; ++i) {
     const TrackedPair pair = feed(*tracker, GreyImage(200, 100, 90));
-    EXPECT_TRUE(pair.acs.empty());
+    EXPECT_TRUE(pair.empty());
     EXPECT_FALSE(pair.standing);
   }
   EXPECT_NO_THROW(static_cast<void>(tracker->prepare(GreyImage(3, 2, 9).view())));
@@ -261,8 +263,9 @@ TEST(DrawTracks, WritesAPicture) {
   const TemporaryFolder folder;
   const GreyImage image = render(Texture(12), shifted(0, 0));
   TrackedPair pair;
-  pair.acs.push_back({{100, 100}, {110, 104}, Eigen::Matrix2d::Identity()});
-  pair.tracks.push_back(0);
+  pair.correspondences.emplace_back();
+  pair.correspondences.back().x1 = {100.0, 100.0};
+  pair.correspondences.back().x2 = {110.0, 104.0};
   draw_tracks(image.view(), pair, folder.path() / "tracks.png");
   EXPECT_GT(std::filesystem::file_size(folder.path() / "tracks.png"), 1000U);
   EXPECT_THROW(draw_tracks(image.view(), pair, folder.path() / "none" / "tracks.png"), OutputError);

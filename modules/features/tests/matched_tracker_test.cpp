@@ -28,7 +28,7 @@ std::vector<TrackedPair> pairs_of(const std::string& extractor, AcTracker& track
   for (int frame = 0; frame < 3; ++frame) {
     pairs.push_back(tracker.advance(tracker.prepare(render(texture, drive(frame)).view()), {}));
   }
-  EXPECT_TRUE(pairs.front().acs.empty()) << extractor;
+  EXPECT_TRUE(pairs.front().empty()) << extractor;
   return pairs;
 }
 
@@ -43,7 +43,7 @@ double median_affine_error(const std::string& extractor) {
   const auto pairs = pairs_of(extractor, *tracker);
   const Eigen::Matrix2d truth = drive(2).A * drive(1).A.inverse();
   std::vector<double> errors;
-  for (const auto& ac : pairs.back().acs) errors.push_back((ac.A - truth).norm());
+  for (const auto& ac : pairs.back().correspondences) errors.push_back((ac.A - truth).norm());
   EXPECT_GT(errors.size(), 80U) << extractor;
   return median_of(errors);
 }
@@ -53,16 +53,17 @@ TEST(MatchedTracker, ChainsTracksThroughSharedFeatures) {
     const auto tracker = tracker_named(extractor);
     const auto pairs = pairs_of(extractor, *tracker);
     std::map<std::uint64_t, Eigen::Vector2d> middle;
-    for (std::size_t i = 0; i < pairs[1].tracks.size(); ++i) {
-      EXPECT_TRUE(middle.emplace(pairs[1].tracks[i], pairs[1].acs[i].x2).second);
+    for (std::size_t i = 0; i < pairs[1].size(); ++i) {
+      EXPECT_TRUE(
+          middle.emplace(pairs[1].correspondences[i].track, pairs[1].correspondences[i].x2).second);
     }
     std::size_t shared = 0;
-    for (std::size_t i = 0; i < pairs[2].tracks.size(); ++i) {
-      const auto before = middle.find(pairs[2].tracks[i]);
+    for (std::size_t i = 0; i < pairs[2].size(); ++i) {
+      const auto before = middle.find(pairs[2].correspondences[i].track);
       if (before == middle.end()) continue;
       ++shared;
-      EXPECT_LT((before->second - pairs[2].acs[i].x1).norm(), 4.5);
-      EXPECT_TRUE(tracker->between(pairs[2].tracks[i], 0, 2));
+      EXPECT_LT((before->second - pairs[2].correspondences[i].x1).norm(), 4.5);
+      EXPECT_TRUE(tracker->between(pairs[2].correspondences[i].track, 0, 2));
     }
     EXPECT_GT(shared, 40U) << extractor;
   }

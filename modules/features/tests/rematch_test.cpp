@@ -1,4 +1,5 @@
 #include "texture.h"
+#include "track_numbers.h"
 
 #include "oneac/features/ac_tracker.h"
 #include "oneac/features/feature_options.h"
@@ -63,15 +64,15 @@ TEST(Rematch, SiftFindsTheWayWhenTrackingBreaks) {
   const GreyImage before = render(texture, View{}), after = render(texture, jump());
   static_cast<void>(feed(*with, before));
   static_cast<void>(feed(*without, before));
-  EXPECT_LT(feed(*without, after).acs.size(), 20U);
+  EXPECT_LT(feed(*without, after).size(), 20U);
   const TrackedPair pair = feed(*with, after);
-  ASSERT_GT(pair.acs.size(), 100U);
+  ASSERT_GT(pair.size(), 100U);
   std::size_t right = 0;
-  for (const auto& ac : pair.acs) {
+  for (const auto& ac : pair.correspondences) {
     const bool near = (ac.x2 - jump().map(ac.x1)).norm() < 1.0 && (ac.A - jump().A).norm() < 0.1;
     right += near ? 1 : 0;
   }
-  EXPECT_GE(right, pair.acs.size() * 99 / 100);
+  EXPECT_GE(right, pair.size() * 99 / 100);
 }
 
 TEST(Rematch, WhatWasFoundAgainIsTrackedOn) {
@@ -80,10 +81,11 @@ TEST(Rematch, WhatWasFoundAgainIsTrackedOn) {
   static_cast<void>(feed(*tracker, render(texture, View{})));
   const TrackedPair found = feed(*tracker, render(texture, jump()));
   const TrackedPair next = feed(*tracker, render(texture, after_jump()));
-  const std::set<std::uint64_t> known(found.tracks.begin(), found.tracks.end());
-  EXPECT_EQ(known.size(), found.tracks.size());
+  const auto numbers = track_numbers(found);
+  const std::set<std::uint64_t> known(numbers.begin(), numbers.end());
+  EXPECT_EQ(known.size(), found.size());
   std::size_t followed = 0;
-  for (const std::uint64_t track : next.tracks) {
+  for (const std::uint64_t track : track_numbers(next)) {
     if (known.count(track) == 0) continue;
     ++followed;
     const auto whole = tracker->between(track, 0, 2);
@@ -91,7 +93,7 @@ TEST(Rematch, WhatWasFoundAgainIsTrackedOn) {
     EXPECT_LT((whole->A - after_jump().A).norm(), 0.2);
     EXPECT_LT((whole->x2 - after_jump().map(whole->x1)).norm(), 1.5);
   }
-  EXPECT_GT(followed, found.tracks.size() / 2);
+  EXPECT_GT(followed, found.size() / 2);
 }
 
 TEST(Rematch, ChangesNothingWhileTrackingHolds) {
@@ -100,8 +102,9 @@ TEST(Rematch, ChangesNothingWhileTrackingHolds) {
   for (int frame = 0; frame < 4; ++frame) {
     const GreyImage image = render(texture, drive(frame));
     const TrackedPair a = feed(*with, image), b = feed(*without, image);
-    ASSERT_EQ(a.tracks, b.tracks);
-    for (std::size_t i = 0; i < a.acs.size(); ++i) EXPECT_TRUE(a.acs[i].A == b.acs[i].A) << frame;
+    ASSERT_EQ(track_numbers(a), track_numbers(b));
+    for (std::size_t i = 0; i < a.size(); ++i)
+      EXPECT_TRUE(a.correspondences[i].A == b.correspondences[i].A) << frame;
   }
 }
 
@@ -115,9 +118,9 @@ TEST(Rematch, TrackingGoesOnAfterADarkStretch) {
     const TrackedPair pair = feed(*tracker, render(texture, view));
     const bool after_dark = frame == 4;
     if (frame == 0 || dark || after_dark) {
-      EXPECT_TRUE(pair.acs.empty()) << frame;
+      EXPECT_TRUE(pair.empty()) << frame;
     } else {
-      EXPECT_GT(pair.acs.size(), 200U) << frame;
+      EXPECT_GT(pair.size(), 200U) << frame;
     }
     EXPECT_FALSE(pair.standing) << frame;
   }

@@ -1,7 +1,8 @@
 #include "oneac/frontend/front_end.h"
 
 #include "odometry.h"
-#include "stereo_depths.h"
+#include "scale/stereo_depths.h"
+#include "two_view/normalised_pair.h"
 
 #include "oneac/base/thread_clock.h"
 #include "oneac/frontend/observation_input.h"
@@ -10,8 +11,6 @@
 #include <mrpt/core/Clock.h>
 #include <mrpt/obs/CObservation.h>
 
-#include <algorithm>
-#include <cmath>
 #include <stdexcept>
 #include <utility>
 
@@ -21,40 +20,6 @@ namespace {
 mrpt::containers::yaml initialiser_yaml(const FrontEndOptions& options) {
   const InitialiserOptions chosen{options.estimator, options.consensus, options.gc_ransac};
   return mrpt::containers::yaml::FromText(chosen.to_yaml());
-}
-
-std::uint8_t grey_at(const ImageView& image, const Eigen::Vector2d& u) {
-  const int column = std::clamp(static_cast<int>(std::lround(u.x())), 0, image.width - 1);
-  const int row = std::clamp(static_cast<int>(std::lround(u.y())), 0, image.height - 1);
-  return image.data[static_cast<std::ptrdiff_t>(row) * image.stride + column];
-}
-
-double in_normalised_units(const std::vector<float>& sigmas_px, std::size_t i, double focal_px) {
-  return i < sigmas_px.size() ? static_cast<double>(sigmas_px[i]) / focal_px : 0.0;
-}
-
-/// K of TrackedPair::perspective: its rows are pixels of the first image, as δ and 1/η are.
-Eigen::Matrix2d in_normalised_units(const Eigen::Matrix2f& perspective,
-                                    const PinholeCamera& first) {
-  const Eigen::Vector2d per_px(1.0 / first.fx, 1.0 / first.fy);
-  return per_px.asDiagonal() * perspective.cast<double>() * per_px.asDiagonal();
-}
-
-StepTracks normalised(const TrackedPair& pair, const PinholeCamera& first,
-                      const CameraFrame& second) {
-  StepTracks step;
-  step.tracks = pair.tracks;
-  step.standing = pair.standing;
-  const ImageView image = second.image.view();
-  for (std::size_t i = 0; i < pair.acs.size(); ++i) {
-    step.acs.push_back(normalise(pair.acs[i], first, second.camera));
-    step.point_sigma.push_back(in_normalised_units(pair.point_sigma, i, second.camera.focal_px()));
-    step.affine_sigma.push_back(in_normalised_units(pair.affine_sigma, i, 1.0));
-    if (i < pair.perspective.size())
-      step.perspective.push_back(in_normalised_units(pair.perspective[i], first));
-    if (!image.empty()) step.grey.push_back(grey_at(image, pair.acs[i].x2));
-  }
-  return step;
 }
 
 }  // namespace
@@ -97,13 +62,13 @@ PreparedFrame FrontEnd::prepare(CameraFrame frame) const {
 FrameResult FrontEnd::process(PreparedFrame prepared) {
   const CameraFrame& frame = prepared.frame;
   double features_ms = prepared.features_ms;
-  StepTracks tracks;
+  TrackedPair pair;
   {
     const StageTimer timer(features_ms);
-    TrackedPair pair = tracker_->advance(std::move(prepared.features), hint());
-    tracks = normalised(pair, previous_camera_, frame);
-    if (options_.scale.source == "stereo") add_stereo_depths(frame, pair, tracks);
-    correspondences_ = std::move(pair);
+    correspondences_ = tracker_->advance(std::move(prepared.features), hint());
+    if (options_.scale.source == "stereo")
+      correspondences_ = with_stereo_depths(std::move(correspondences_), frame);
+    pair = normalised(correspondences_, previous_camera_, frame);
   }
   previous_camera_ = frame.camera;
   prepared.frame.image = {};
@@ -112,7 +77,7 @@ FrameResult FrontEnd::process(PreparedFrame prepared) {
     started_ = true;
     return odometry_->start(frame);
   }
-  FrameResult result = odometry_->advance(frame, std::move(tracks));
+  FrameResult result = odometry_->advance(frame, std::move(pair));
   result.step->features_ms = features_ms;
   constexpr double kMillisecond = 1e-3;
   profiler_.registerUserMeasure("features", features_ms * kMillisecond, true);
@@ -128,12 +93,11 @@ FrameResult FrontEnd::process(PreparedFrame prepared) {
 MotionHint FrontEnd::hint() const {
   MotionHint hint;
   hint.camera = previous_camera_;
-  if (odometry_->tilt() != nullptr) hint.R_level_cam = odometry_->tilt()->leveling();
-  if (!odometry_->has_moved()) return hint;
-  RelativePose motion = odometry_->last_motion();
+  hint.R_level_cam = leveling_rotation(tilt());
+  hint.T_2_1 = odometry_->expected();
+  if (!hint.T_2_1) return hint;
   hint.scaled = odometry_->scale().is_metric() && camera_height() > 0.0;
-  if (hint.scaled) motion.t /= camera_height();
-  hint.T_2_1 = motion;
+  if (hint.scaled) hint.T_2_1->t /= camera_height();
   return hint;
 }
 
@@ -166,7 +130,7 @@ void FrontEnd::add_speed(double time_s, double speed_mps) {
 }
 
 TiltBelief FrontEnd::tilt_belief() const {
-  return odometry_->tilt() != nullptr ? odometry_->tilt()->belief() : TiltBelief{};
+  return odometry_->attitude().mounting();
 }
 
 Settled FrontEnd::finish() {
@@ -174,11 +138,11 @@ Settled FrontEnd::finish() {
 }
 
 Tilt FrontEnd::tilt() const {
-  return odometry_->tilt() != nullptr ? odometry_->tilt()->tilt() : Tilt{};
+  return tilt_belief().tilt;
 }
 
 double FrontEnd::camera_height() const {
-  return odometry_->camera_height();
+  return odometry_->scale().camera_height();
 }
 
 double FrontEnd::scale_uncertainty() const {

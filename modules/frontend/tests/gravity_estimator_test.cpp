@@ -1,4 +1,4 @@
-#include "gravity_estimator.h"
+#include "attitude/gravity_estimator.h"
 
 #include "oneac/test_support/scenes.h"
 

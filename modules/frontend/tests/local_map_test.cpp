@@ -1,4 +1,4 @@
-#include "local_map.h"
+#include "map/local_map.h"
 
 #include "oneac/geometry/homography.h"
 #include "oneac/test_support/scenes.h"
@@ -31,8 +31,8 @@ class Corridor {
   }
 
   /// Correspondences of a drive from z1 to z2; the walls' normals point across the street.
-  [[nodiscard]] StepTracks step(double z1, double z2) const {
-    StepTracks tracks;
+  [[nodiscard]] TrackedPair step(double z1, double z2) const {
+    TrackedPair pair;
     const RelativePose T = pose_at(z2) * pose_at(z1).inverse();
     for (std::size_t i = 0; i < points_.size(); ++i) {
       const Eigen::Vector3d X = pose_at(z1) * points_[i];
@@ -40,12 +40,13 @@ class Corridor {
       const Plane wall{Eigen::Vector3d::UnitX() * (X.x() > 0.0 ? 1.0 : -1.0), std::abs(X.x())};
       const auto ac =
           correspondence_from_homography(plane_induced_homography(T, wall), X.head<2>() / X.z());
-      tracks.acs.push_back(*ac);
-      tracks.tracks.push_back(i);
-      tracks.point_sigma.push_back(0.0);
-      tracks.affine_sigma.push_back(0.001);  // exact data: the normals show
+      Correspondence full;
+      static_cast<AffineCorrespondence&>(full) = *ac;
+      full.track = i;
+      full.affine_sigma = 0.001;  // exact data: the normals show
+      pair.correspondences.push_back(full);
     }
-    return tracks;
+    return pair;
   }
 
  private:
@@ -106,8 +107,8 @@ TEST(LocalMap, ParallaxRotationAndLossOfTracksNeedOne) {
   EXPECT_TRUE(map.needs_keyframe(turned, 0.1));
 
   map = driven_map(corridor, 3);
-  StepTracks few = corridor.step(3.0, 3.05);
-  std::vector<bool> inliers(few.acs.size(), false);
+  const TrackedPair few = corridor.step(3.0, 3.05);
+  std::vector<bool> inliers(few.size(), false);
   for (std::size_t i = 0; i < inliers.size(); i += 3) inliers[i] = true;
   map.extend(few, inliers);
   EXPECT_TRUE(map.needs_keyframe(Corridor::pose_at(3.05), 0.1));
@@ -151,14 +152,10 @@ TEST(LocalMap, GivesItsPointsAwayWithTheirNormals) {
 }
 
 /// The step with the tracks below `number` only.
-StepTracks first_of(const StepTracks& step, std::uint64_t number) {
-  StepTracks first;
-  for (std::size_t i = 0; i < step.acs.size(); ++i) {
-    if (step.tracks[i] >= number) continue;
-    first.acs.push_back(step.acs[i]);
-    first.tracks.push_back(step.tracks[i]);
-    first.point_sigma.push_back(step.point_sigma[i]);
-    first.affine_sigma.push_back(step.affine_sigma[i]);
+TrackedPair first_of(const TrackedPair& step, std::uint64_t number) {
+  TrackedPair first;
+  for (const Correspondence& ac : step.correspondences) {
+    if (ac.track < number) first.correspondences.push_back(ac);
   }
   return first;
 }
@@ -171,7 +168,7 @@ TEST(LocalMap, CorrectsLandmarksThatTookNoPartInTheAdjustment) {
   LocalMap map(options, kFocal);
   map.start(0, Corridor::pose_at(0.0));
   for (int z = 0; z < 5; ++z) {
-    const StepTracks step = corridor.step(z, z + 1.0);
+    const TrackedPair step = corridor.step(z, z + 1.0);
     map.extend(z < 4 ? first_of(step, 60) : step, {});
     map.add_keyframe(static_cast<std::size_t>(z) + 1, Corridor::pose_at(z < 4 ? z + 1.0 : 5.1));
     map.refine(Eigen::Matrix3d::Identity());

@@ -1,4 +1,4 @@
-#include "settling.h"
+#include "map/settling.h"
 
 #include <gtest/gtest.h>
 

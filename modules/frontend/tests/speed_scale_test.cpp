@@ -1,4 +1,4 @@
-#include "speed_scale.h"
+#include "scale/speed_scale.h"
 
 #include <gtest/gtest.h>
 

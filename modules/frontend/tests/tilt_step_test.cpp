@@ -1,4 +1,4 @@
-#include "tilt_step.h"
+#include "attitude/tilt_step.h"
 
 #include <gtest/gtest.h>
 

@@ -7,7 +7,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <stdexcept>
 #include <string>
 
@@ -91,8 +90,8 @@ double heaviest_height(const std::vector<Candidate>& candidates, double bandwidt
 /// Y = d + a X + b Z in the levelled frame.
 struct RoadPlane {
   double d = 0.0, a = 0.0, b = 0.0;
-  Eigen::Vector3d variances = Eigen::Vector3d::Zero();  ///< of d, a, b by the assumed noise
-  double variance_factor = 1.0;                         ///< how much more the residuals scatter
+  double variance = 0.0;         ///< of d by the assumed noise
+  double variance_factor = 1.0;  ///< how much more the residuals scatter
   std::size_t support = 0;
 
   [[nodiscard]] double height_at(const Eigen::Vector3d& X) const {
@@ -136,16 +135,9 @@ RoadPlane fit_plane(const std::vector<Candidate>& candidates, double height,
     plane.b = solution(2);
     plane.variance_factor = weights > 0.0 ? std::max(chi2 / weights, 0.1) : 1.0;
   }
-  plane.variances = factor.solve(Eigen::Matrix3d::Identity()).diagonal();
+  const Eigen::Matrix3d covariance = factor.solve(Eigen::Matrix3d::Identity());
+  plane.variance = covariance(0, 0);
   return plane;
-}
-
-/// What the points say of one of the plane's slopes, without the prior that helped to fit it.
-RoadSlope measured_slope(double value, double variance, double prior_deg, double factor) {
-  const double information = 1.0 / variance;
-  const double measured = information - 1.0 / squared(prior_deg * kDegree);
-  if (!(measured > 0.0)) return {0.0, std::numeric_limits<double>::infinity()};
-  return {std::atan(value * information / measured), std::sqrt(factor / measured)};
 }
 
 }  // namespace
@@ -179,12 +171,9 @@ std::optional<GroundScale> ground_scale(AcSpan acs, const std::vector<bool>& inl
   if (plane.support < static_cast<std::size_t>(options.min_support)) return std::nullopt;
   const double distance = plane.distance();
   if (!(distance > kSmallestHeight) || !std::isfinite(distance)) return std::nullopt;
-  const double uncertainty = std::sqrt(plane.variance_factor * plane.variances(0)) / plane.d;
+  const double uncertainty = std::sqrt(plane.variance_factor * plane.variance) / plane.d;
   if (!(uncertainty < options.max_uncertainty)) return std::nullopt;
-  return GroundScale{
-      T_2_1.t.norm() / distance, uncertainty, plane.support,
-      measured_slope(plane.b, plane.variances(2), options.plane_tilt_deg, plane.variance_factor),
-      measured_slope(plane.a, plane.variances(1), options.cross_fall_deg, plane.variance_factor)};
+  return GroundScale{T_2_1.t.norm() / distance, uncertainty, plane.support};
 }
 
 }  // namespace oneac

@@ -83,15 +83,12 @@ std::optional<GroundScale> seen_with(const Tilt& tilt, unsigned seed) {
                       with_unit_length(unlevel(level_motion, L)), kLevel, kSigma, {});
 }
 
-TEST(GroundScale, TellsTheSlopeOfTheRoad) {
-  const auto up = seen_with({0.5 * kDegree, 0.0}, 35);
-  ASSERT_TRUE(up.has_value());
-  EXPECT_NEAR(up->ahead.angle, 0.5 * kDegree, 0.15 * kDegree);
-  EXPECT_NEAR(up->right.angle, 0.0, 0.15 * kDegree);
-  EXPECT_LT(up->ahead.sigma, 0.3 * kDegree);
-  const auto leaning_right = seen_with({0.0, 1.0 * kDegree}, 36);
-  ASSERT_TRUE(leaning_right.has_value());
-  EXPECT_NEAR(leaning_right->right.angle, -1.0 * kDegree, 0.2 * kDegree);
+TEST(GroundScale, KeepsTheLengthOverASlope) {
+  for (const Tilt& tilt : {Tilt{0.5 * kDegree, 0.0}, Tilt{0.0, 1.0 * kDegree}}) {
+    const auto scale = seen_with(tilt, 35);
+    ASSERT_TRUE(scale.has_value());
+    EXPECT_NEAR(scale->baseline, 0.8, 0.016) << "half a degree unseen would change it by 5 %";
+  }
 }
 
 TEST(GroundScale, LeavesOutTheFootway) {

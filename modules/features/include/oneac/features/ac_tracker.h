@@ -1,6 +1,7 @@
 #pragma once
 
 #include "oneac/features/ac_extractor.h"
+#include "oneac/features/correspondence.h"
 #include "oneac/geometry/camera.h"
 #include "oneac/geometry/relative_pose.h"
 
@@ -22,19 +23,6 @@ struct MotionHint {
   Eigen::Matrix3d R_level_cam = Eigen::Matrix3d::Identity();  ///< removes the camera's tilt
 };
 
-/// Correspondences from the frame before to this one, each part of a track over many frames.
-struct TrackedPair {
-  std::vector<AffineCorrespondence> acs;  ///< pixels, A = ∂u2/∂u1
-  std::vector<std::uint64_t> tracks;      ///< one per correspondence; the same number in every pair
-                                          ///< that the track lives through, never used twice
-  std::vector<float> affine_sigma;        ///< 1σ of an entry of A [-]; 0 where unknown
-  std::vector<float> point_sigma;         ///< 1σ of u2 [px]; 0 where unknown
-  /// K [px²]: a patch that maps as δ ↦ A δ (1 − η·δ), which perspective does, is found with its
-  /// centre u2 shifted by −A K η; zero where unknown.
-  std::vector<Eigen::Matrix2f> perspective;
-  bool standing = false;  ///< the images are near-identical: the camera stood
-};
-
 /// Follows affine frames through a sequence of images. prepare() holds all that concerns one image
 /// and runs on any thread; advance() goes image by image, in time order, and keeps the tracks.
 class AcTracker {
@@ -47,7 +35,7 @@ class AcTracker {
   /// Everything that needs one image only. Thread-safe. @pre the image is not empty
   [[nodiscard]] virtual std::shared_ptr<const FrameFeatures> prepare(
       const ImageView& image) const = 0;
-  /// Correspondences from the last frame given to this one; none for the first.
+  /// Correspondences [px] from the last frame given to this one; none for the first.
   [[nodiscard]] virtual TrackedPair advance(std::shared_ptr<const FrameFeatures> now,
                                             const MotionHint& hint) = 0;
   /// Where a track was in two frames and the affinity between them, composed along the track.

@@ -38,20 +38,11 @@ void describe(Visitor&& visit, GroundScaleOptions& o) {
   visit("cross_fall_deg", o.cross_fall_deg, "deg", "1-sigma of the road's slope to the side");
 }
 
-/// Slope of the road against the levelled camera, as its points alone say it: the prior of
-/// plane_tilt_deg is taken out again.
-struct RoadSlope {
-  double angle = 0.0;  ///< [rad]
-  double sigma = 0.0;  ///< [rad] 1σ from the spread of the support; infinite when they say nothing
-};
-
 /// What the road says about the length of one step.
 struct GroundScale {
   double baseline = 0.0;     ///< |t| in camera heights
   double uncertainty = 0.0;  ///< relative 1σ of it, from the spread of the support
   std::size_t support = 0;   ///< correspondences on the ground plane
-  RoadSlope ahead;           ///< falling ahead of the first view is positive: its axis points up
-  RoadSlope right;           ///< falling to the right is positive: the view leans to its left
 };
 
 /// Length of the translation in camera heights from the correspondences on the ground; empty when

@@ -65,7 +65,7 @@ std::optional<ScaleMeasurement> SpeedScale::measure() {
     variance += from_speed * from_speed + from_bend * from_bend + from_latency * from_latency;
   }
   if (!(truth > 0.0) || !(map > 0.0)) return std::nullopt;
-  return ScaleMeasurement{truth / map, std::sqrt(variance) / truth};
+  return ScaleMeasurement{truth / map, std::sqrt(variance) / truth, LengthSource::kSpeed};
 }
 
 std::optional<SpeedScale::Speed> SpeedScale::speed_at(double time_s) const {
@@ -94,7 +94,8 @@ std::optional<ScaleMeasurement> SpeedScale::first_guess() const {
   const double map = length_at(end) - length_at(begin);
   const auto speed = speed_at(0.5 * (begin + end));
   if (!(map > 0.0) || !speed || speed->value < kSlowest) return std::nullopt;
-  return ScaleMeasurement{speed->value * (end - begin) / map, speed->sigma / speed->value};
+  return ScaleMeasurement{speed->value * (end - begin) / map, speed->sigma / speed->value,
+                          LengthSource::kSpeed};
 }
 
 }  // namespace oneac

@@ -1,4 +1,4 @@
-#include "patch_geometry.h"
+#include "scale/length_votes.h"
 
 #include <gtest/gtest.h>
 

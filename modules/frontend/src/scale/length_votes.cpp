@@ -1,4 +1,4 @@
-#include "patch_geometry.h"
+#include "length_votes.h"
 
 #include <Eigen/Geometry>
 
@@ -8,55 +8,11 @@
 namespace oneac {
 namespace {
 
-// [1/length] ten kilometres, for lengths in metres: as good as infinity.
-constexpr double kFarthest = 1e-4;
 // Relative 1σ of a depth at best. The formal one of a near point seen by eight keyframes is a
 // tenth of it; a handful of those, slipped along an edge or on traffic, would outvote all others.
 constexpr double kSurestDepth = 0.02;
 constexpr int kIterations = 5;  // of the weights; they settle after three
 constexpr double kCut = 4.0;    // (2σ)², scale of the robust weight
-
-}  // namespace
-
-double inverse_depth_of(const RelativePose& T_2_1, const Eigen::Vector2d& x1,
-                        const Eigen::Vector2d& x2) {
-  const Eigen::Vector3d p = T_2_1.R * x1.homogeneous();
-  const Eigen::Vector2d a = p.head<2>() - x2 * p.z();
-  const Eigen::Vector2d b = T_2_1.t.head<2>() - x2 * T_2_1.t.z();
-  const double rho = b.squaredNorm() > 0.0 ? -a.dot(b) / b.squaredNorm() : 0.0;
-  // In front of the second view too: p_z + ρ t_z > 0, with a margin of a tenth.
-  const double most = T_2_1.t.z() < 0.0 ? 0.9 * p.z() / -T_2_1.t.z() : rho;
-  return std::max(std::min(rho, most), kFarthest);
-}
-
-double depth_information(const RelativePose& T_2_1, const Eigen::Vector2d& x1, double inverse_depth,
-                         double sigma) {
-  const Eigen::Vector3d y = T_2_1.R * x1.homogeneous() + inverse_depth * T_2_1.t;
-  if (!(y.z() > 0.0)) return 0.0;
-  const Eigen::Vector2d u = y.head<2>() / y.z();
-  const Eigen::Vector2d slope = (T_2_1.t.head<2>() - u * T_2_1.t.z()) / y.z();
-  // Both ends of the track are noisy.
-  return slope.squaredNorm() / (2.0 * sigma * sigma);
-}
-
-std::optional<LengthVote> length_vote(const RelativePose& unit_step, const Eigen::Vector3d& X,
-                                      const Eigen::Vector2d& x, double depth_sigma, double sigma) {
-  if (!(X.z() > 0.0)) return std::nullopt;
-  const Eigen::Vector3d p = unit_step.R * X;
-  const Eigen::Vector2d a = p.head<2>() - x * p.z();
-  const Eigen::Vector2d b = unit_step.t.head<2>() - x * unit_step.t.z();
-  const double slope = b.norm();
-  if (!(slope > 0.0) || !(p.z() > 0.0)) return std::nullopt;
-  const double length = -a.dot(b) / (slope * slope);
-  const double from_points = std::sqrt(2.0) * sigma * p.z() / slope;
-  return LengthVote{length, from_points, depth_sigma};
-}
-
-double LengthVote::sigma(double true_length) const {
-  return std::hypot(point_sigma, std::max(depth_sigma, kSurestDepth) * true_length);
-}
-
-namespace {
 
 bool shorter(const LengthVote& a, const LengthVote& b) {
   return a.length < b.length || (a.length == b.length && a.point_sigma < b.point_sigma);
@@ -80,6 +36,23 @@ double weighted_median(std::vector<LengthVote>& votes, double assumed) {
 }
 
 }  // namespace
+
+std::optional<LengthVote> length_vote(const RelativePose& unit_step, const Eigen::Vector3d& X,
+                                      const Eigen::Vector2d& x, double depth_sigma, double sigma) {
+  if (!(X.z() > 0.0)) return std::nullopt;
+  const Eigen::Vector3d p = unit_step.R * X;
+  const Eigen::Vector2d a = p.head<2>() - x * p.z();
+  const Eigen::Vector2d b = unit_step.t.head<2>() - x * unit_step.t.z();
+  const double slope = b.norm();
+  if (!(slope > 0.0) || !(p.z() > 0.0)) return std::nullopt;
+  const double length = -a.dot(b) / (slope * slope);
+  const double from_points = std::sqrt(2.0) * sigma * p.z() / slope;
+  return LengthVote{length, from_points, depth_sigma};
+}
+
+double LengthVote::sigma(double true_length) const {
+  return std::hypot(point_sigma, std::max(depth_sigma, kSurestDepth) * true_length);
+}
 
 RobustMean robust_mean(std::vector<LengthVote> votes) {
   RobustMean mean;

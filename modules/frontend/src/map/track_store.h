@@ -1,6 +1,6 @@
 #pragma once
 
-#include "oneac/features/ac_tracker.h"
+#include "oneac/features/correspondence.h"
 
 #include <Eigen/Core>
 
@@ -43,38 +43,14 @@ struct Track {
   [[nodiscard]] const Sighting* sighting(std::size_t keyframe) const;
 };
 
-/// A depth that was measured otherwise than by the motion.
-struct MeasuredDepth {
-  double z = 0.0;      ///< [m]; 0: none
-  double sigma = 0.0;  ///< relative 1σ
-};
-
-/// Correspondences of one step, normalised, with the tracks that they belong to.
-struct StepTracks {
-  std::vector<AffineCorrespondence> acs;
-  std::vector<std::uint64_t> tracks;
-  std::vector<double> point_sigma;           ///< [-]; 0: unknown
-  std::vector<double> affine_sigma;          ///< [-]; 0: unknown
-  std::vector<Eigen::Matrix2d> perspective;  ///< TrackedPair::perspective, normalised; empty: none
-  /// x2 less where the tracker goes on from: what correct_perspective() has moved it by. Empty:
-  /// not.
-  std::vector<Eigen::Vector2d> moved;
-  std::vector<std::uint8_t> grey;     ///< of the second image there; may be empty
-  std::vector<MeasuredDepth> depths;  ///< of the points in the second image; empty: none
-  bool standing = false;              ///< the images are near-identical
-};
-
-/// Moves the points of the second image from where affine alignment found them to where they are:
-/// patches are seen in perspective, which the pose and their affinities tell.
-void correct_perspective(const RelativePose& T_2_1, StepTracks& step);
-
 using TrackMap = std::map<std::uint64_t, Track>;  // ordered: the same sums in every run
 
 /// Extends the tracks by one step: chains affinities, begins new tracks, ends those that were not
 /// seen or did not obey the pose.
+/// @param step     normalised, corrected for perspective
 /// @param inliers  one per correspondence; empty: all
 /// @param keyframe_before  id of the keyframe that the frame before was, if it was one
-void extend_tracks(const StepTracks& step, const std::vector<bool>& inliers,
+void extend_tracks(const TrackedPair& step, const std::vector<bool>& inliers,
                    const std::size_t* keyframe_before, TrackMap& tracks);
 
 }  // namespace oneac

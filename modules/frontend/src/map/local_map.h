@@ -1,11 +1,10 @@
 #pragma once
 
-#include "speed_scale.h"
+#include "scale/measurements.h"
 #include "track_store.h"
 
 #include "oneac/frontend/keyframe.h"
 #include "oneac/frontend/window_options.h"
-#include "oneac/solvers/span.h"
 
 #include <Eigen/Core>
 
@@ -17,24 +16,11 @@
 
 namespace oneac {
 
-/// Length of a step as the landmarks carry it.
-struct CarriedLength {
-  double length = 0.0;  ///< [map]
-  double sigma = 0.0;   ///< relative 1σ
-  std::size_t support = 0;
-};
-
 /// A keyframe of the window.
 struct WindowKeyframe {
   std::size_t id = 0;
   std::size_t frame = 0;  ///< counts processed frames
   RelativePose T_cam_map;
-};
-
-/// Two views of the same tracks, for the road.
-struct KeyframePair {
-  std::vector<AffineCorrespondence> acs;
-  RelativePose T_2_1;  ///< in lengths of the map
 };
 
 /// Keyframes and landmarks of the recent past. Lengths are those of the map: metres once a scale
@@ -46,22 +32,20 @@ class LocalMap {
   /// The first keyframe of a map; tracks and keyframes before are forgotten.
   void start(std::size_t frame, const RelativePose& T_cam_map);
   /// One step further: tracks of its inliers.
-  void extend(const StepTracks& step, const std::vector<bool>& inliers);
+  void extend(const TrackedPair& step, const std::vector<bool>& inliers);
   /// Length of the step (R, t̂) from the frame before to this one by the landmarks that both see.
-  [[nodiscard]] std::optional<CarriedLength> carry(const RelativePose& unit_step,
-                                                   const RelativePose& T_before_map) const;
+  [[nodiscard]] std::optional<LengthMeasurement> carry(const RelativePose& unit_step,
+                                                       const RelativePose& T_before_map) const;
   /// Whether the newest frame should be a keyframe.
   [[nodiscard]] bool needs_keyframe(const RelativePose& T_cam_map, double seconds) const;
   /// Makes the newest frame one, and landmarks of the tracks that it shares with older ones.
   void add_keyframe(std::size_t frame, const RelativePose& T_cam_map);
   /// Adjusts the window; true when it took part.
   bool refine(const Eigen::Matrix3d& R_level_cam);
-  /// Scale of the map by depths in the newest keyframe that were measured otherwise.
-  [[nodiscard]] std::optional<ScaleMeasurement> compare_depths(const StepTracks& step) const;
+  /// Depths of landmarks in the newest keyframe beside those measured otherwise.
+  [[nodiscard]] std::vector<DepthComparison> compare_depths(const TrackedPair& step) const;
   /// Correspondences between the last keyframe and one before it.
   [[nodiscard]] KeyframePair pair_with(std::size_t steps_back) const;
-  /// Way from the last keyframe but one to the last [map].
-  [[nodiscard]] double newest_way() const;
   /// Multiplies all lengths, the oldest keyframe staying where it is.
   void rescale(double factor);
   /// Whether the window has one keyframe more than it may.

@@ -1,23 +1,19 @@
 #include "track_store.h"
 
-#include "oneac/geometry/perspective.h"
-
 #include <algorithm>
 
 namespace oneac {
 namespace {
 
-// [-] of an entry of A whose track does not say.
-constexpr double kAffineSigma = 0.05;
 /// Affinities whose area changed more than a hundredfold over the track carry nothing.
 constexpr double kSmallestArea = 0.01;
 
-Track new_track(const AffineCorrespondence& ac, const std::size_t* keyframe_before,
-                double point_sigma, double affine_sigma) {
+Track new_track(const Correspondence& ac, const std::size_t* keyframe_before) {
   Track track;
+  track.grey = ac.grey;
   if (keyframe_before != nullptr) {
     track.seen.push_back(
-        {*keyframe_before, ac.x1, Eigen::Matrix2d::Identity(), point_sigma, affine_sigma});
+        {*keyframe_before, ac.x1, Eigen::Matrix2d::Identity(), ac.point_sigma, ac.affine_sigma});
   }
   return track;
 }
@@ -35,33 +31,19 @@ const Sighting* Track::sighting(std::size_t keyframe) const {
   return found == seen.end() ? nullptr : &*found;
 }
 
-void correct_perspective(const RelativePose& T_2_1, StepTracks& step) {
-  step.moved.assign(step.acs.size(), Eigen::Vector2d::Zero());
-  for (std::size_t i = 0; i < step.perspective.size(); ++i) {
-    AffineCorrespondence& ac = step.acs[i];
-    const double sigma = step.affine_sigma[i] > 0.0 ? step.affine_sigma[i] : kAffineSigma;
-    const auto eta = perspective_of(ac, T_2_1, sigma);
-    if (!eta) continue;
-    step.moved[i] = ac.A * (step.perspective[i] * *eta);
-    ac.x2 += step.moved[i];
-  }
-}
-
-void extend_tracks(const StepTracks& step, const std::vector<bool>& inliers,
+void extend_tracks(const TrackedPair& step, const std::vector<bool>& inliers,
                    const std::size_t* keyframe_before, TrackMap& tracks) {
   for (auto& [id, track] : tracks) {
     track.was_alive = track.alive;
     track.alive = false;
   }
-  for (std::size_t i = 0; i < step.acs.size(); ++i) {
+  for (std::size_t i = 0; i < step.size(); ++i) {
     if (!inliers.empty() && !inliers[i]) continue;
-    const AffineCorrespondence& ac = step.acs[i];
-    const auto [at, is_new] = tracks.try_emplace(step.tracks[i]);
+    const Correspondence& ac = step.correspondences[i];
+    const auto [at, is_new] = tracks.try_emplace(ac.track);
     Track& track = at->second;
-    if (is_new || !track.was_alive) {  // a gap breaks the chain of affinities
-      track = new_track(ac, keyframe_before, step.point_sigma[i], step.affine_sigma[i]);
-      if (!step.grey.empty()) track.grey = step.grey[i];
-    }
+    // A gap breaks the chain of affinities.
+    if (is_new || !track.was_alive) track = new_track(ac, keyframe_before);
     const Eigen::Matrix2d shape = ac.A * track.now.shape;
     if (!is_usable(shape)) continue;
     track.alive = true;
@@ -69,8 +51,8 @@ void extend_tracks(const StepTracks& step, const std::vector<bool>& inliers,
     // The affinity carries the landmark along with the patch beside which it lies.
     const Eigen::Vector2d x = ac.x2 + ac.A * track.offset;
     track.offset = x - ac.x2;
-    if (!step.moved.empty()) track.offset += step.moved[i];
-    track.now = {0, x, shape, step.point_sigma[i], step.affine_sigma[i]};
+    track.offset += ac.moved;
+    track.now = {0, x, shape, ac.point_sigma, ac.affine_sigma};
   }
   for (auto at = tracks.begin(); at != tracks.end();) {
     // A dead track stays while it is a landmark: two keyframes of the window see it.

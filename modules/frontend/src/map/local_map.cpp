@@ -1,6 +1,7 @@
 #include "local_map.h"
 
 #include "patch_geometry.h"
+#include "scale/length_votes.h"
 #include "window_exchange.h"
 
 #include "oneac/geometry/angular_errors.h"
@@ -14,10 +15,6 @@ namespace {
 constexpr double kDegree = 3.14159265358979323846 / 180.0;
 // A landmark whose depth is less certain than this carries no length.
 constexpr double kUsefulDepth = 0.3;
-// [-] of a depth by stereo: a tenth of a pixel of bad rectification at ten pixels of disparity,
-// which no number of points averages out.
-constexpr double kRectification = 0.01;
-
 double relative_sigma(const Track& track) {
   return 1.0 / (std::sqrt(track.depth_information) * track.inverse_depth);
 }
@@ -46,7 +43,7 @@ void LocalMap::start(std::size_t frame, const RelativePose& T_cam_map) {
   tracks_of_last_ = 0;
 }
 
-void LocalMap::extend(const StepTracks& step, const std::vector<bool>& inliers) {
+void LocalMap::extend(const TrackedPair& step, const std::vector<bool>& inliers) {
   const std::size_t id = newest_is_keyframe_.value_or(0);
   extend_tracks(step, inliers, newest_is_keyframe_ ? &id : nullptr, tracks_);
   if (newest_is_keyframe_ && tracks_of_last_ == 0) {
@@ -55,8 +52,8 @@ void LocalMap::extend(const StepTracks& step, const std::vector<bool>& inliers) 
   newest_is_keyframe_.reset();
 }
 
-std::optional<CarriedLength> LocalMap::carry(const RelativePose& unit_step,
-                                             const RelativePose& T_before_map) const {
+std::optional<LengthMeasurement> LocalMap::carry(const RelativePose& unit_step,
+                                                 const RelativePose& T_before_map) const {
   std::vector<LengthVote> votes;
   for (const auto& [id, track] : tracks_) {
     if (!is_sure(track)) continue;
@@ -71,7 +68,7 @@ std::optional<CarriedLength> LocalMap::carry(const RelativePose& unit_step,
   if (votes.size() < static_cast<std::size_t>(options_.min_carry)) return std::nullopt;
   const RobustMean mean = robust_mean(votes);
   if (mean.support < static_cast<std::size_t>(options_.min_carry)) return std::nullopt;
-  return CarriedLength{mean.value, mean.relative_sigma, mean.support};
+  return LengthMeasurement{mean.value, mean.relative_sigma, LengthSource::kMap, mean.support};
 }
 
 bool LocalMap::needs_keyframe(const RelativePose& T_cam_map, double seconds) const {
@@ -164,23 +161,18 @@ void LocalMap::triangulate_but(const std::vector<std::uint64_t>& adjusted) {
   }
 }
 
-std::optional<ScaleMeasurement> LocalMap::compare_depths(const StepTracks& step) const {
-  std::vector<LengthVote> votes;
-  for (std::size_t i = 0; i < step.depths.size(); ++i) {
-    const MeasuredDepth& measured = step.depths[i];
-    const auto at = tracks_.find(step.tracks[i]);
-    if (!(measured.z > 0.0) || at == tracks_.end() || !is_sure(at->second)) continue;
+std::vector<DepthComparison> LocalMap::compare_depths(const TrackedPair& step) const {
+  std::vector<DepthComparison> depths;
+  for (const Correspondence& ac : step.correspondences) {
+    if (!ac.depth) continue;
+    const auto at = tracks_.find(ac.track);
+    if (at == tracks_.end() || !is_sure(at->second)) continue;
     const Track& track = at->second;
     const RelativePose T = window_.back().T_cam_map * keyframe(track.anchor).T_cam_map.inverse();
     const double in_map = (T * (track.ray.homogeneous() / track.inverse_depth)).z();
-    if (!(in_map > 0.0)) continue;
-    const double ratio = measured.z / in_map;
-    votes.push_back({ratio, ratio * measured.sigma, relative_sigma(track)});
+    depths.push_back({in_map, relative_sigma(track), *ac.depth});
   }
-  if (votes.size() < static_cast<std::size_t>(options_.min_carry)) return std::nullopt;
-  const RobustMean mean = robust_mean(votes);
-  if (mean.support < static_cast<std::size_t>(options_.min_carry)) return std::nullopt;
-  return ScaleMeasurement{mean.value, std::hypot(mean.relative_sigma, kRectification)};
+  return depths;
 }
 
 KeyframePair LocalMap::pair_with(std::size_t steps_back) const {
@@ -197,12 +189,6 @@ KeyframePair LocalMap::pair_with(std::size_t steps_back) const {
     pair.acs.push_back({a->x, b->x, b->shape * a->shape.inverse()});
   }
   return pair;
-}
-
-double LocalMap::newest_way() const {
-  if (window_.size() < 2) return 0.0;
-  const RelativePose& before = window_[window_.size() - 2].T_cam_map;
-  return (window_.back().T_cam_map * before.inverse()).t.norm();
 }
 
 void LocalMap::rescale(double factor) {

@@ -1,16 +1,11 @@
 #pragma once
 
-#include <cstddef>
+#include "measurements.h"
+
 #include <deque>
 #include <optional>
 
 namespace oneac {
-
-/// True length over length in the map, with its relative 1σ.
-struct ScaleMeasurement {
-  double ratio = 0.0;
-  double sigma = 0.0;
-};
 
 /// Measures the map's scale by speeds over ground: the way between two fixes, by the trapezium
 /// rule, against the length that the map gives it. Each interval counts once, so the errors of

@@ -1,0 +1,25 @@
+#pragma once
+
+#include "patch_alignment.h"
+
+#include "oneac/features/correspondence.h"
+
+#include <cstdint>
+
+namespace oneac::internal {
+
+/// A correspondence of a track with what its alignment tells of it. Sigmas and perspective are
+/// estimates good to a digit or two: they are rounded to single precision.
+[[nodiscard]] inline Correspondence with_quality(const AffineCorrespondence& ac,
+                                                 std::uint64_t track,
+                                                 const AlignmentQuality& quality) {
+  Correspondence full;
+  static_cast<AffineCorrespondence&>(full) = ac;
+  full.track = track;
+  full.point_sigma = static_cast<double>(static_cast<float>(quality.point_sigma));
+  full.affine_sigma = static_cast<double>(static_cast<float>(quality.affine_sigma));
+  full.perspective = quality.perspective.cast<float>().cast<double>();
+  return full;
+}
+
+}  // namespace oneac::internal

@@ -1,0 +1,80 @@
+#include "attitude.h"
+
+#include "tilt_step.h"
+
+#include <string>
+
+namespace oneac {
+namespace {
+
+constexpr double kDegree = 3.14159265358979323846 / 180.0;
+// [rad] 1σ of a vehicle against the horizon, over the minutes of a drive.
+constexpr double kLevelVehicle = 1.0 * kDegree;
+
+}  // namespace
+
+Attitude::Attitude(const TiltOptions& options) : options_(options) {}
+
+void Attitude::start(const Eigen::Matrix3d& R_vehicle_cam) {
+  R_vehicle_cam_ = R_vehicle_cam;
+  mounting_.emplace(given(), options_);
+  road_.emplace(mounting_->belief());
+}
+
+void Attitude::add_inertial(const InertialReading& reading) {
+  gravity_.add(reading);
+  if (mounting_ && options_.source == "imu") mounting_->set_given(given());
+}
+
+Tilt Attitude::given() const {
+  const std::string& source = options_.source;
+  if (source == "params") {
+    return {options_.pitch_up_deg * kDegree, options_.roll_right_deg * kDegree};
+  }
+  if (source == "drive") return {};
+  const Tilt log = tilt_from_mounting(R_vehicle_cam_);
+  const auto up = gravity_.up();
+  if (source != "imu" || !up) return log;
+  // Weighed against the mounting on a level vehicle, which slopes and load make a degree uncertain.
+  const Tilt felt = tilt_from_gravity(R_vehicle_cam_, *up);
+  const double off = gravity_.sigma() / kLevelVehicle;
+  const double trust = 1.0 / (1.0 + off * off);
+  return {log.pitch_up + trust * (felt.pitch_up - log.pitch_up),
+          log.roll_right + trust * (felt.roll_right - log.roll_right)};
+}
+
+void Attitude::follow(const StepResult& step) {
+  if (!mounting_) return;
+  if (step.status == StepStatus::kPredicted) {
+    road_->lose(mounting_->belief());
+    return;
+  }
+  road_->add_step(tilt_step(step), mounting_->belief());
+  if (step.status == StepStatus::kOk) mounting_->add_step(step.pose);
+}
+
+TiltBelief Attitude::mounting() const {
+  return mounting_ ? mounting_->belief() : TiltBelief{};
+}
+
+AngleBelief Attitude::suspension() const {
+  if (!road_) return {};
+  const TiltBelief against_road = road_->tilt();
+  return {against_road.tilt.pitch_up - mounting().tilt.pitch_up, against_road.pitch_sigma};
+}
+
+Levelling Attitude::now() const {
+  return road_ ? levelling(road_->tilt().tilt.pitch_up) : Levelling{};
+}
+
+Levelling Attitude::before(const Eigen::Matrix3d& R_now_before) const {
+  return road_ ? levelling(road_->tilt_before(R_now_before).pitch_up) : Levelling{};
+}
+
+Levelling Attitude::levelling(double pitch_up) const {
+  const TiltBelief camera = mounting();
+  return {leveling_rotation({pitch_up, camera.tilt.roll_right}), road_->tilt().pitch_sigma,
+          camera.roll_sigma};
+}
+
+}  // namespace oneac

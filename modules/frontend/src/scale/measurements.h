@@ -1,0 +1,77 @@
+#pragma once
+
+#include "oneac/features/correspondence.h"
+#include "oneac/geometry/affine_correspondence.h"
+#include "oneac/geometry/relative_pose.h"
+
+#include <cstddef>
+#include <vector>
+
+namespace oneac {
+
+/// Who told a length.
+enum class LengthSource {
+  kNone,      ///< nobody
+  kStanding,  ///< the camera did not travel: zero metres
+  kMap,       ///< landmarks carry the length of the map
+  kRoad,      ///< the road, by the camera's height
+  kStereo,    ///< depths by the right images
+  kSpeed,     ///< speeds over ground
+  kHeld,      ///< the last speed goes on
+};
+
+/// The length of one step.
+struct LengthMeasurement {
+  double length = 0.0;  ///< [m]; by landmarks [map]
+  double sigma = 0.0;   ///< relative 1σ
+  LengthSource source = LengthSource::kNone;
+  std::size_t support = 0;  ///< landmarks, or correspondences on the road
+};
+
+/// True length over length in the map.
+struct ScaleMeasurement {
+  double ratio = 0.0;
+  double sigma = 0.0;  ///< relative 1σ
+  LengthSource source = LengthSource::kNone;
+  std::size_t support = 0;
+};
+
+/// What a step's length comes to.
+struct StepLength {
+  double length = 0.0;  ///< [m, or units while the drive has no scale] as used in the trajectory
+  double sigma = 0.0;   ///< relative 1σ of a metric length, else 0
+  bool metric = false;
+  LengthSource source = LengthSource::kNone;  ///< whose word it is
+  std::size_t landmarks = 0;                  ///< that carried it
+  std::size_t ground_acs = 0;                 ///< on the road, where it was asked
+};
+
+/// Two views of the same tracks.
+struct KeyframePair {
+  std::vector<AffineCorrespondence> acs;  ///< normalised
+  RelativePose T_2_1;                     ///< in lengths of the map
+};
+
+/// A landmark's depth in the map beside one that was measured otherwise.
+struct DepthComparison {
+  double in_map = 0.0;        ///< [map]
+  double in_map_sigma = 0.0;  ///< relative 1σ
+  MeasuredDepth measured;
+};
+
+/// What the map's newest lengths can be compared with, at a new keyframe.
+struct MapLengths {
+  KeyframePair newest;                  ///< the last keyframe but one and the last
+  std::vector<DepthComparison> depths;  ///< in the last
+};
+
+/// What a keyframe changes in the scale of the map.
+struct ScaleCorrection {
+  double share = 1.0;   ///< how far it speaks for the lengths before, see ScaleFilter::drift()
+  double factor = 1.0;  ///< all lengths of the map are to be multiplied by it
+  bool metric = false;  ///< of the map, from now on
+  double sigma = 0.0;   ///< relative 1σ of its lengths; infinite while nobody has measured
+  std::size_t ground_acs = 0;  ///< on the road, where it was asked
+};
+
+}  // namespace oneac

@@ -1,0 +1,36 @@
+#include "road_length.h"
+
+#include <cmath>
+
+namespace oneac {
+namespace {
+
+constexpr double kDegree = 3.14159265358979323846 / 180.0;
+// [-] share of the inlier bound taken as 1σ of a point's position.
+constexpr double kSigmaOfThreshold = 0.5;
+
+/// A levelling that is not sure of its angles sees the road tilted by so much more.
+GroundScaleOptions widened(GroundScaleOptions options, const Levelling& levelling) {
+  options.plane_tilt_deg = std::hypot(options.plane_tilt_deg, levelling.pitch_sigma / kDegree);
+  options.cross_fall_deg = std::hypot(options.cross_fall_deg, levelling.roll_sigma / kDegree);
+  return options;
+}
+
+}  // namespace
+
+RoadLength::RoadLength(const GroundScaleOptions& options, double threshold_px)
+    : options_(options), point_sigma_px_(kSigmaOfThreshold * threshold_px) {}
+
+std::optional<LengthMeasurement> RoadLength::measure(AcSpan acs, const std::vector<bool>& inliers,
+                                                     const RelativePose& T_2_1,
+                                                     const Levelling& first,
+                                                     double focal_px) const {
+  if (!(camera_height_ > 0.0)) return std::nullopt;
+  const auto road = ground_scale(acs, inliers, T_2_1, first.R_level_cam, point_sigma_px_ / focal_px,
+                                 widened(options_, first));
+  if (!road) return std::nullopt;
+  return LengthMeasurement{road->baseline * camera_height_, road->uncertainty, LengthSource::kRoad,
+                           road->support};
+}
+
+}  // namespace oneac

@@ -1,0 +1,12 @@
+#pragma once
+
+#include "oneac/features/correspondence.h"
+#include "oneac/geometry/camera_frame.h"
+
+namespace oneac {
+
+/// The pair [px] with depths of its second points, measured in the right image of the frame: of
+/// some hundred spread over the tracks, and of none without a right image.
+[[nodiscard]] TrackedPair with_stereo_depths(TrackedPair pair, const CameraFrame& frame);
+
+}  // namespace oneac

@@ -1,0 +1,67 @@
+#pragma once
+
+#include "oneac/features/correspondence.h"
+#include "oneac/frontend/frame_result.h"
+#include "oneac/geometry/relative_pose.h"
+#include "oneac/initialisers/relative_pose_initialiser.h"
+#include "oneac/refine/two_view.h"
+
+#include <Eigen/Core>
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace oneac {
+
+struct FrontEndOptions;
+
+/// What is known of a pair beside its correspondences.
+struct TwoViewPrior {
+  Eigen::Matrix3d R_level_cam = Eigen::Matrix3d::Identity();  ///< of the first camera
+  RelativePose expected;     ///< motion that goes on when the images do not tell; t of any length
+  double focal_px = 1.0;     ///< [px] of one normalised unit
+  std::uint64_t number = 0;  ///< of the pair in the drive: methods that draw at random differ by it
+};
+
+/// What two images alone say about the motion between them.
+struct TwoView {
+  StepStatus status = StepStatus::kPredicted;
+  RelativePose pose;  ///< T_2_1, |t| = 1 or 0; of a predicted step the expected one
+  /// Of (w, v): R ← exp([w]×) R, t/|t| ← t/|t| + v with v ⊥ t [rad²]; rank five with a direction,
+  /// of w alone without, zero where nobody told.
+  Eigen::Matrix<double, 6, 6> covariance = Eigen::Matrix<double, 6, 6>::Zero();
+  TrackedPair pair;           ///< normalised, its second points corrected for perspective
+  std::vector<bool> inliers;  ///< one per correspondence; empty when predicted
+  std::size_t inlier_count = 0;
+  double focal_px = 1.0;                      ///< [px] of one normalised unit
+  double estimate_ms = 0.0, refine_ms = 0.0;  ///< CPU time [ms]
+};
+
+/// Initialises, corrects for perspective, refines. Does not change from pair to pair.
+class TwoViewEstimator {
+ public:
+  TwoViewEstimator(const FrontEndOptions& options, RelativePoseInitialiser::Ptr initialiser);
+
+  /// @param pair  normalised
+  [[nodiscard]] TwoView estimate(TrackedPair pair, const TwoViewPrior& prior) const;
+
+ private:
+  [[nodiscard]] InitialiserResult initialise(const TrackedPair& pair, const TwoViewPrior& prior,
+                                             double& cpu_ms) const;
+  [[nodiscard]] TwoView refined(TwoView start) const;
+
+  RelativePoseInitialiser::Ptr initialiser_;
+  RefineOptions refine_;
+  bool refine_enabled_;
+  bool perspective_;
+  std::uint64_t seed_;
+};
+
+/// Covariance of (w, v) from an information of rank five that knows nothing of v along t: zero
+/// there. Zero for an information that is zero or not finite.
+/// @param direction  t, not zero
+[[nodiscard]] Eigen::Matrix<double, 6, 6> covariance_beside(
+    const Eigen::Matrix<double, 6, 6>& information, const Eigen::Vector3d& direction);
+
+}  // namespace oneac

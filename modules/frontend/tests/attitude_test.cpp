@@ -1,0 +1,92 @@
+#include "attitude/attitude.h"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Geometry>
+
+#include <cmath>
+
+namespace oneac {
+namespace {
+
+constexpr double kDegree = 3.14159265358979323846 / 180.0;
+
+TiltOptions given(double pitch_up_deg) {
+  TiltOptions options;
+  options.source = "params";
+  options.pitch_up_deg = pitch_up_deg;
+  return options;
+}
+
+/// A step of a car that drives straight ahead; its camera is pitched up by this.
+StepResult ahead(double pitch_up) {
+  StepResult step;
+  step.status = StepStatus::kOk;
+  step.time2 = 0.1;
+  step.metric = true;
+  step.length = 1.0;
+  step.pose.t = leveling_rotation({pitch_up, 0.0}).transpose() * Eigen::Vector3d(0.0, 0.0, -1.0);
+  return step;
+}
+
+TEST(Attitude, IsLevelBeforeTheFirstFrame) {
+  const Attitude attitude(given(8.0));
+  EXPECT_EQ(attitude.mounting().tilt.pitch_up, 0.0);
+  EXPECT_TRUE(attitude.now().R_level_cam.isIdentity());
+  EXPECT_TRUE(attitude.before(Eigen::Matrix3d::Identity()).R_level_cam.isIdentity());
+}
+
+TEST(Attitude, TakesGravityThatWasFeltBeforeTheFirstFrame) {
+  TiltOptions options;
+  options.source = "imu";
+  Attitude attitude(options);
+  const Eigen::Vector3d leaning(9.81 * std::sin(2.0 * kDegree), 0.0, 9.81);
+  for (int i = 0; i <= 1000; ++i) attitude.add_inertial({0.1 * i, leaning, std::nullopt});
+  Eigen::Matrix3d level_mount;
+  level_mount << 0, 0, 1, -1, 0, 0, 0, -1, 0;
+  attitude.start(level_mount);
+  EXPECT_NEAR(std::abs(attitude.mounting().tilt.pitch_up), 2.0 * kDegree, 0.3 * kDegree);
+}
+
+TEST(Attitude, LearnsTheMountingAndLeavesTheSpringsTheRest) {
+  Attitude attitude(given(3.0));
+  attitude.start(Eigen::Matrix3d::Identity());
+  for (int i = 0; i < 200; ++i) attitude.follow(ahead(4.0 * kDegree));
+  EXPECT_NEAR(attitude.mounting().tilt.pitch_up, 4.0 * kDegree, 0.15 * kDegree);
+  EXPECT_NEAR(attitude.suspension().angle, 0.0, 0.15 * kDegree);
+  // The car brakes: the camera nods by a degree and goes on straight ahead.
+  StepResult nod = ahead(3.0 * kDegree);
+  nod.pose.R = pitch_rotation(1.0 * kDegree);
+  attitude.follow(nod);
+  EXPECT_NEAR(std::abs(attitude.suspension().angle), 1.0 * kDegree, 0.3 * kDegree);
+  EXPECT_NEAR(attitude.mounting().tilt.pitch_up, 4.0 * kDegree, 0.15 * kDegree);
+}
+
+TEST(Attitude, LevelsAnEarlierViewByTheTurnSince) {
+  Attitude attitude(given(3.0));
+  attitude.start(Eigen::Matrix3d::Identity());
+  for (int i = 0; i < 20; ++i) attitude.follow(ahead(3.0 * kDegree));
+  const Levelling now = attitude.now();
+  const Levelling same = attitude.before(Eigen::Matrix3d::Identity());
+  EXPECT_LT((same.R_level_cam - now.R_level_cam).norm(), 1e-9);
+  const Eigen::Matrix3d R_now_before = pitch_rotation(2.0 * kDegree);
+  const Levelling before = attitude.before(R_now_before);
+  const Eigen::AngleAxisd between(now.R_level_cam * R_now_before * before.R_level_cam.transpose());
+  EXPECT_LT(between.angle(), 1e-6) << "both views are level";
+  EXPECT_GT(before.pitch_sigma, 0.0);
+  EXPECT_GT(before.roll_sigma, 0.0);
+}
+
+TEST(Attitude, IsLessSureAfterAStepThatTheImagesDidNotCarry) {
+  Attitude attitude(given(3.0));
+  attitude.start(Eigen::Matrix3d::Identity());
+  for (int i = 0; i < 50; ++i) attitude.follow(ahead(3.0 * kDegree));
+  const double before = attitude.now().pitch_sigma;
+  StepResult lost;
+  lost.status = StepStatus::kPredicted;
+  attitude.follow(lost);
+  EXPECT_GT(attitude.now().pitch_sigma, 1.5 * before);
+}
+
+}  // namespace
+}  // namespace oneac

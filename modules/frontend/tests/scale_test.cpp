@@ -1,0 +1,208 @@
+#include "scale/scale.h"
+
+#include "scale/depth_scale.h"
+
+#include "oneac/frontend/front_end_options.h"
+#include "oneac/geometry/homography.h"
+#include "oneac/test_support/scenes.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace oneac {
+namespace {
+
+constexpr double kHeight = 1.5;
+constexpr double kFocal = 700.0;
+
+FrontEndOptions by(const char* source) {
+  FrontEndOptions options;
+  options.scale.source = source;
+  options.camera_height = kHeight;
+  return options;
+}
+
+Scale started(const FrontEndOptions& options) {
+  Scale scale(options);
+  scale.start({});
+  return scale;
+}
+
+/// A road under the camera, and a car that drives this far [m].
+KeyframePair road(double metres, double length_in_map) {
+  SceneGenerator random(3);
+  const RelativePose T{Eigen::Matrix3d::Identity(), {0.0, 0.0, -metres}};
+  const Plane ground{Eigen::Vector3d::UnitY(), kHeight};
+  KeyframePair pair;
+  for (int i = 0; i < 120; ++i) {
+    const Eigen::Vector2d x1(random.uniform(-0.3, 0.3), random.uniform(0.12, 0.4));
+    const auto ac = correspondence_from_homography(plane_induced_homography(T, ground), x1);
+    if (ac) pair.acs.push_back(*ac);
+  }
+  pair.T_2_1 = {T.R, {0.0, 0.0, -length_in_map}};
+  return pair;
+}
+
+TwoView seen_road(double metres) {
+  const KeyframePair pair = road(metres, 1.0);
+  TwoView seen;
+  seen.status = StepStatus::kOk;
+  seen.pose = pair.T_2_1;
+  seen.focal_px = kFocal;
+  seen.inliers.assign(pair.acs.size(), true);
+  for (const AffineCorrespondence& ac : pair.acs) {
+    seen.pair.correspondences.emplace_back();
+    static_cast<AffineCorrespondence&>(seen.pair.correspondences.back()) = ac;
+  }
+  return seen;
+}
+
+StepInTime step(StepStatus status, double begin_s, double expected_length) {
+  return {
+      status, begin_s, begin_s + 0.1, {Eigen::Matrix3d::Identity(), {0.0, 0.0, -expected_length}}};
+}
+
+LengthMeasurement carried(double length) {
+  return {length, 0.01, LengthSource::kMap, 40};
+}
+
+TEST(Scale, AsksTheRoadWhereTheMapDoesNotCarryTheLength) {
+  Scale scale = started(by("height"));
+  const auto told = scale.measure(seen_road(0.9), std::nullopt, {});
+  ASSERT_EQ(told.size(), 1U);
+  EXPECT_EQ(told[0].source, LengthSource::kRoad);
+  const StepLength length = scale.length_of(step(StepStatus::kOk, 0.0, 0.0), told);
+  EXPECT_NEAR(length.length, 0.9, 0.02);
+  EXPECT_TRUE(length.metric);
+  EXPECT_GT(length.ground_acs, 30U);
+  EXPECT_EQ(length.landmarks, 0U);
+}
+
+TEST(Scale, TakesTheMapsWordBeforeTheRoads) {
+  Scale scale = started(by("height"));
+  const auto told = scale.measure(seen_road(0.9), carried(2.0), {});
+  const StepLength length = scale.length_of(step(StepStatus::kOk, 0.0, 0.0), told);
+  EXPECT_EQ(length.source, LengthSource::kMap);
+  EXPECT_EQ(length.length, 2.0);
+  EXPECT_FALSE(length.metric) << "nobody has measured the map";
+  EXPECT_EQ(length.sigma, 0.0);
+  EXPECT_EQ(length.landmarks, 40U);
+}
+
+TEST(Scale, IsMetricOnceTheRoadHasMeasuredTheMap) {
+  Scale scale = started(by("height"));
+  const ScaleCorrection correction = scale.correct({road(0.9, 1.8), {}}, {}, kFocal);
+  EXPECT_NEAR(correction.factor, 0.5, 0.01);
+  EXPECT_TRUE(correction.metric);
+  EXPECT_GT(correction.ground_acs, 30U);
+  const StepLength length = scale.length_of(step(StepStatus::kOk, 0.0, 0.0), {carried(0.9)});
+  EXPECT_TRUE(length.metric);
+  EXPECT_GT(length.sigma, 0.01) << "that of the landmarks and that of the map";
+  scale.restart(0.1);
+  EXPECT_FALSE(scale.is_metric());
+  EXPECT_TRUE(std::isinf(scale.uncertainty()));
+}
+
+TEST(Scale, TrustsAMapLessThatWasCarriedBadly) {
+  const auto share_after = [](double sigma) {
+    Scale scale = started(by("height"));
+    static_cast<void>(scale.correct({road(0.9, 0.9), {}}, {}, kFocal));
+    LengthMeasurement told = carried(1.0);
+    told.sigma = sigma;
+    static_cast<void>(scale.length_of(step(StepStatus::kOk, 0.0, 1.0), {told}));
+    return scale.correct({road(0.9, 0.9), {}}, {}, kFocal).share;
+  };
+  EXPECT_LT(share_after(0.2), 0.5 * share_after(0.01));
+}
+
+TEST(Scale, AStandingCameraDrivesZeroMetres) {
+  Scale scale = started(by("height"));
+  const StepLength length = scale.length_of(step(StepStatus::kNoMotion, 0.0, 1.0), {});
+  EXPECT_TRUE(length.metric);
+  EXPECT_EQ(length.length, 0.0);
+  EXPECT_EQ(length.source, LengthSource::kStanding);
+}
+
+TEST(Scale, RefusesTheLengthOfAFlyingCar) {
+  Scale scale = started(by("height"));
+  const StepLength length =
+      scale.length_of(step(StepStatus::kOk, 100.0, 1.2), {{8.0, 0.01, LengthSource::kRoad, 50}});
+  EXPECT_FALSE(length.metric) << "80 m/s";
+  EXPECT_EQ(length.source, LengthSource::kHeld);
+  EXPECT_EQ(length.length, 1.2);
+  EXPECT_EQ(length.ground_acs, 50U);
+}
+
+TEST(Scale, HoldsTheLastMetricSpeedForAWhile) {
+  FrontEndOptions options = by("height");
+  options.max_hold = 1.0;
+  Scale scale = started(options);
+  EXPECT_EQ(scale.length_of(step(StepStatus::kOk, 9.9, 0.0), {}).length, 1.0)
+      << "the unit of a map without metres";
+  static_cast<void>(
+      scale.length_of(step(StepStatus::kOk, 10.0, 1.0), {{0.8, 0.01, LengthSource::kRoad, 50}}));
+  const StepLength held = scale.length_of(step(StepStatus::kPredicted, 10.1, 0.3), {});
+  EXPECT_NEAR(held.length, 0.8, 1e-9);
+  EXPECT_FALSE(held.metric);
+  EXPECT_EQ(held.source, LengthSource::kHeld);
+  EXPECT_EQ(scale.length_of(step(StepStatus::kPredicted, 12.0, 0.3), {}).length, 0.3)
+      << "too long ago: the last step goes on";
+}
+
+TEST(Scale, TakesTheHeightOfAMountThatStandsOnTheRoad) {
+  FrontEndOptions options = by("height");
+  options.camera_height = 0.0;
+  CameraFrame frame;
+  frame.T_vehicle_cam.translation().z() = 1.2;
+  Scale scale(options);
+  scale.start(frame);
+  EXPECT_EQ(scale.camera_height(), 1.2);
+  frame.T_vehicle_cam.translation().z() = 0.3;
+  Scale low(options);
+  low.start(frame);
+  EXPECT_EQ(low.camera_height(), 0.0) << "relative to the vehicle, not to the road";
+  options.scale.source = "gps";
+  options.camera_height = 1.5;
+  Scale by_speed(options);
+  by_speed.start(frame);
+  EXPECT_EQ(by_speed.camera_height(), 0.0) << "the road is not asked";
+}
+
+TEST(Scale, MeasuresTheMapBySpeeds) {
+  Scale scale = started(by("gps"));
+  for (int i = 0; i < 12; ++i) {
+    static_cast<void>(scale.length_of(step(StepStatus::kOk, 0.1 * i, 1.0), {carried(2.0)}));
+  }
+  scale.add_speed(0.0, 10.0);
+  scale.add_speed(1.0, 10.0);
+  const ScaleCorrection correction = scale.correct({road(1.0, 2.0), {}}, {}, kFocal);
+  EXPECT_NEAR(correction.factor, 0.5, 1e-6);
+  EXPECT_TRUE(correction.metric);
+  EXPECT_EQ(correction.ground_acs, 0U);
+}
+
+TEST(Scale, MeasuresTheMapByDepths) {
+  Scale scale = started(by("stereo"));
+  MapLengths map;
+  for (int i = 0; i < 30; ++i) map.depths.push_back({10.0 + i, 0.02, {0.4 * (10.0 + i), 0.01}});
+  const ScaleCorrection correction = scale.correct(map, {}, kFocal);
+  EXPECT_NEAR(correction.factor, 0.4, 1e-6);
+  EXPECT_TRUE(correction.metric);
+}
+
+TEST(ScaleByDepths, NeedsEnoughThatAgree) {
+  std::vector<DepthComparison> depths(7, {10.0, 0.02, {5.0, 0.01}});
+  EXPECT_FALSE(scale_by_depths(depths, 8).has_value());
+  depths.push_back({-1.0, 0.02, {5.0, 0.01}});
+  EXPECT_FALSE(scale_by_depths(depths, 8).has_value()) << "behind the camera";
+  depths.push_back({10.0, 0.02, {5.0, 0.01}});
+  const auto scale = scale_by_depths(depths, 8);
+  ASSERT_TRUE(scale.has_value());
+  EXPECT_NEAR(scale->ratio, 0.5, 1e-9);
+  EXPECT_GE(scale->sigma, 0.01) << "rectification does not average out";
+  EXPECT_FALSE(scale_by_depths({}, 0).has_value());
+}
+
+}  // namespace
+}  // namespace oneac
