@@ -29,29 +29,29 @@ RelativePose any_motion(const Eigen::Matrix3d& E) {
 
 class EpipolarSpace : public internal::ModelSpace {
  public:
-  EpipolarSpace(AcSpan acs, const Eigen::Matrix3d& R_level_cam, const MinimalModel& model,
+  EpipolarSpace(AcSpan acs, const Eigen::Matrix3d& R_level_cam, const Solver& solver,
                 double threshold, const std::string& lo_model)
       : acs_(acs),
-        solver_(model),
+        solver_(solver),
         Q_(R_level_cam),
         threshold_(threshold),
         linear_(lo_model != "polish"),
         polishing_(lo_model != "8pc"),
         scored_(acs) {
-    if (solver_.planar) level();
+    if (solver_.levelled()) level();
     gathered_.reserve(acs.size());
   }
 
   AcSpan points() const override { return acs_; }
-  std::size_t sample_size() const override { return solver_.sample_size; }
-  bool approximate() const override { return solver_.planar; }
+  std::size_t sample_size() const override { return solver_.sample; }
+  bool approximate() const override { return solver_.levelled(); }
 
   EssentialSet solve(const std::size_t* sample) override {
     AffineCorrespondence drawn[kLargestSample];
-    const AcSpan from = solver_.planar ? AcSpan(levelled_) : acs_;
-    for (std::size_t i = 0; i < solver_.sample_size; ++i) drawn[i] = from[sample[i]];
-    EssentialSet models = solver_.solve({drawn, solver_.sample_size});
-    if (!solver_.planar) return models;
+    const AcSpan from = solver_.levelled() ? AcSpan(levelled_) : acs_;
+    for (std::size_t i = 0; i < solver_.sample; ++i) drawn[i] = from[sample[i]];
+    EssentialSet models = solver_.run.essentials({drawn, solver_.sample});
+    if (!solver_.levelled()) return models;
     for (std::size_t i = 0; i < models.size(); ++i) models[i] = Q_.transpose() * models[i] * Q_;
     return models;
   }
@@ -94,7 +94,7 @@ class EpipolarSpace : public internal::ModelSpace {
   }
 
   AcSpan acs_;
-  const MinimalModel& solver_;
+  const Solver& solver_;
   Eigen::Matrix3d Q_;
   double threshold_;
   bool linear_;
@@ -158,7 +158,7 @@ void GcRansacOptions::validate() const {
 }
 
 RobustResult gc_ransac(AcSpan acs, const Eigen::Matrix3d& R_level_cam, double focal_px,
-                       MinimalMethod method, std::uint64_t seed, const GcRansacOptions& options) {
+                       const Solver& solver, std::uint64_t seed, const GcRansacOptions& options) {
   options.validate();
   require(focal_px > 0.0 && std::isfinite(focal_px), "focal_px", focal_px, "positive and finite");
   RobustResult result;
@@ -168,7 +168,7 @@ RobustResult gc_ransac(AcSpan acs, const Eigen::Matrix3d& R_level_cam, double fo
   const auto min_inliers = static_cast<std::size_t>(options.min_inliers);
   if (finite.acs.size() < min_inliers) return result;
   const double threshold = options.threshold_px / focal_px;
-  EpipolarSpace space(finite.acs, R_level_cam, minimal_model(method), threshold, options.lo_model);
+  EpipolarSpace space(finite.acs, R_level_cam, solver, threshold, options.lo_model);
   const internal::LoopResult found = internal::gc_ransac_loop(space, seed, options);
   result.statistics = found.statistics;
   if (!found.found) return result;

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "oneac/robust/gc_ransac.h"
-#include "oneac/robust/minimal_models.h"
+#include "oneac/solvers/registry.h"
 
 #include <Eigen/Core>
 

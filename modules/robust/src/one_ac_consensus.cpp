@@ -49,8 +49,8 @@ void require(bool good, const char* field, double value, const char* bound) {
 }  // namespace
 
 void ConsensusOptions::validate() const {
-  require(ground || planar || side_wall || front_wall || wall, "ground", 0,
-          "true when no other solver is on");
+  const bool some = std::find(pool.on.begin(), pool.on.end(), true) != pool.on.end();
+  require(some, pool_solvers().front()->pool_key(), 0, "true when no other solver is on");
   require(threshold_px > 0.0, "threshold_px", threshold_px, "positive");
   require(pitch_sweep_deg >= 0.0 && pitch_sweep_deg <= 10.0, "pitch_sweep_deg", pitch_sweep_deg,
           "from 0 to 10");

@@ -4,9 +4,6 @@
 #include "levelled_acs.h"
 
 #include "oneac/robust/pitch_sweep.h"
-#include "oneac/solvers/relpose_1ac_front_wall.h"
-#include "oneac/solvers/relpose_1ac_side_wall.h"
-#include "oneac/solvers/relpose_1ac_wall.h"
 
 #include <algorithm>
 #include <array>
@@ -85,42 +82,43 @@ struct BatchPoses {
   }
 };
 
-template <class Solutions>
-void move_to(const Solutions& solutions, PlanarPool& pool) {
-  for (const auto& s : solutions) pool.add(s.cos_alpha, s.sin_alpha, s.tx, s.tz);
-}
+/// The solvers of the pool that are on, those for any scene first: of two hypotheses of equal cost
+/// the one that assumes less is kept.
+struct Chosen {
+  std::vector<BatchSolver> batch;
+  std::vector<decltype(SolverFunctions::planar)> one_by_one;
 
-/// The wall solvers have no batch form.
-std::size_t solve_walls(const LevelledAcs& acs, const ConsensusOptions& options, PlanarPool& pool) {
-  if (!options.side_wall && !options.front_wall && !options.wall) return 0;
-  const std::size_t size = acs.arrays().size;
-  for (std::size_t i = 0; i < size; ++i) {
-    const AffineCorrespondence ac = acs.at(i);
-    if (options.side_wall) move_to(relpose_1ac_side_wall(ac), pool);
-    if (options.front_wall) move_to(relpose_1ac_front_wall(ac), pool);
-    if (options.wall) move_to(relpose_1ac_wall(ac), pool);
+  explicit Chosen(const SolverPool& pool) {
+    for (const bool any_scene : {true, false}) {
+      for (std::size_t i = 0; i < pool_solvers().size(); ++i) {
+        const Solver* solver = pool_solvers()[i];
+        if (!pool.on[i] || (solver->surface == SolverSurface::kAny) != any_scene) continue;
+        if (solver->batch != nullptr) {
+          batch.push_back(solver->batch);
+        } else {
+          one_by_one.push_back(solver->run.planar);
+        }
+      }
+    }
   }
-  const int solvers = int{options.side_wall} + int{options.front_wall} + int{options.wall};
-  return size * static_cast<std::size_t>(solvers);
-}
+};
 
 /// The share of the correspondences with every chosen solver. @return minimal problems solved
-std::size_t solve(const LevelledAcs& acs, const ConsensusOptions& options, BatchPoses& poses,
+std::size_t solve(const LevelledAcs& acs, const Chosen& chosen, BatchPoses& poses,
                   PlanarPool& pool) {
   const AcArrays arrays = acs.arrays();
   poses.resize(arrays.size);
-  std::size_t solved = 0;
-  if (options.planar) {
-    relpose_1ac_planar_batch(arrays, poses.arrays());
+  for (const BatchSolver batch : chosen.batch) {
+    batch(arrays, poses.arrays(), best_simd_level());
     poses.move_to(pool);
-    solved += arrays.size;
   }
-  if (options.ground) {
-    relpose_1ac_ground_batch(arrays, poses.arrays());
-    poses.move_to(pool);
-    solved += arrays.size;
+  for (std::size_t i = 0; i < arrays.size && !chosen.one_by_one.empty(); ++i) {
+    const AffineCorrespondence ac = acs.at(i);
+    for (const auto planar : chosen.one_by_one) {
+      for (const PlanarPose& s : planar(ac)) pool.add(s.cos_alpha, s.sin_alpha, s.tx, s.tz);
+    }
   }
-  return solved + solve_walls(acs, options, pool);
+  return arrays.size * (chosen.batch.size() + chosen.one_by_one.size());
 }
 
 /// So that about `problems` are solved per solver over all turns, every correspondence at some of
@@ -201,6 +199,7 @@ SearchResult search(AcSpan acs, const Eigen::Matrix3d& R_level_cam, double thres
   const auto inverse_squared = static_cast<float>(1.0 / (width * width));
   const std::vector<Eigen::Matrix3d>& Q = scope.turns;
   const std::size_t stride = stride_for(levelled.size(), Q.size(), scope.problems);
+  const Chosen chosen(options.pool);
   BatchPoses poses;
   PlanarPool pool;
   ShortList list(scope.keep);
@@ -208,7 +207,7 @@ SearchResult search(AcSpan acs, const Eigen::Matrix3d& R_level_cam, double thres
   for (std::size_t turn = 0; turn < Q.size(); ++turn) {
     levelled.turn_second_view(Q[turn], {turn % stride, stride});
     pool.clear();
-    result.solved += solve(levelled, options, poses, pool);
+    result.solved += solve(levelled, chosen, poses, pool);
     costs.resize(pool.essentials().padded_size);
     kernels.planar_costs(pool.essentials(), levelled.sample(kSample, Q[turn]), inverse_squared,
                          costs.data());

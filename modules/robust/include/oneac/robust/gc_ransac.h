@@ -1,7 +1,7 @@
 #pragma once
 
-#include "oneac/robust/minimal_models.h"
 #include "oneac/robust/robust_result.h"
+#include "oneac/solvers/registry.h"
 #include "oneac/solvers/span.h"
 
 #include <cstdint>
@@ -53,7 +53,7 @@ void describe(Visitor&& visit, GcRansacOptions& o) {
 /// @return             kOk or kTooFew (identity); standing cameras and planes are not looked for
 /// @throws std::invalid_argument for options or a focal length out of bounds
 [[nodiscard]] RobustResult gc_ransac(AcSpan acs, const Eigen::Matrix3d& R_level_cam,
-                                     double focal_px, MinimalMethod method, std::uint64_t seed,
+                                     double focal_px, const Solver& solver, std::uint64_t seed,
                                      const GcRansacOptions& options);
 
 }  // namespace oneac

@@ -1,0 +1,29 @@
+#pragma once
+
+#include "oneac/solvers/registry.h"
+
+#include <array>
+#include <cstddef>
+#include <string_view>
+#include <vector>
+
+namespace oneac {
+
+/// The rows of the list of solvers that the one-AC consensus may take hypotheses from.
+[[nodiscard]] const std::vector<const Solver*>& pool_solvers();
+
+/// Which of the pool_solvers() are on.
+struct SolverPool {
+  static constexpr std::size_t kMost = 16;
+  std::array<bool, kMost> on{};  ///< one per pool_solvers(), in their order
+
+  /// As the rows say.
+  SolverPool();
+  /// That solver alone. @throws std::invalid_argument when it is none of the pool
+  [[nodiscard]] static SolverPool only(const Solver& solver);
+  /// Whether the solver of that key, such as "ground", is on.
+  /// @throws std::invalid_argument when there is none
+  [[nodiscard]] bool& operator[](std::string_view key);
+};
+
+}  // namespace oneac
