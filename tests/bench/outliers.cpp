@@ -11,6 +11,7 @@
 #include "oneac/base/atomic_file.h"
 #include "oneac/robust/gc_ransac.h"
 #include "oneac/robust/one_ac_consensus.h"
+#include "oneac/solvers/registry.h"
 #include "oneac/study/line_plot.h"
 
 #include <algorithm>

@@ -5,6 +5,7 @@
 #include "oneac/robust/gc_ransac.h"
 #include "oneac/robust/ground_scale.h"
 #include "oneac/robust/one_ac_consensus.h"
+#include "oneac/solvers/registry.h"
 
 #include <algorithm>
 #include <cmath>

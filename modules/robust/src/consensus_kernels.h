@@ -1,6 +1,6 @@
 #pragma once
 
-#include "oneac/solvers/batch.h"
+#include "oneac/base/simd.h"
 
 #include <cstddef>
 
@@ -62,11 +62,11 @@ struct ConsensusKernels {
                       double squared_scale, NormalSums<double>& out);
 };
 
-/// @pre is_supported(level)
-[[nodiscard]] const ConsensusKernels& consensus_kernels(SimdLevel level);
-
-extern const ConsensusKernels kKernelsBaseline;
-extern const ConsensusKernels kKernelsAvx2;
-extern const ConsensusKernels kKernelsAvx512;
+template <>
+const ConsensusKernels& simd_kernels_at<ConsensusKernels, SimdLevel::kBaseline>();
+template <>
+const ConsensusKernels& simd_kernels_at<ConsensusKernels, SimdLevel::kAvx2>();
+template <>
+const ConsensusKernels& simd_kernels_at<ConsensusKernels, SimdLevel::kAvx512>();
 
 }  // namespace oneac::internal

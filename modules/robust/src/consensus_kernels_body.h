@@ -1,7 +1,8 @@
 #pragma once
 
 #include "consensus_kernels.h"
-#include "float_lanes.h"
+
+#include "oneac/base/simd_lanes.h"
 
 namespace oneac::internal {
 namespace {
@@ -18,11 +19,10 @@ inline FloatLanes at_most_one(const FloatLanes& ratio) {
 void planar_costs(const PlanarEssentials& hypotheses, const PointArrays<float>& points,
                   float inverse_squared_threshold, float* cost) {
   for (std::size_t h = 0; h < hypotheses.padded_size; h += kLanes<float>) {
-    FloatLanes e12, e21, e23, e32;
-    load(hypotheses.e12 + h, e12);
-    load(hypotheses.e21 + h, e21);
-    load(hypotheses.e23 + h, e23);
-    load(hypotheses.e32 + h, e32);
+    const FloatLanes e12 = load(hypotheses.e12 + h);
+    const FloatLanes e21 = load(hypotheses.e21 + h);
+    const FloatLanes e23 = load(hypotheses.e23 + h);
+    const FloatLanes e32 = load(hypotheses.e32 + h);
     FloatLanes total = {};
     for (std::size_t i = 0; i < points.padded_size; ++i) {
       const float y1 = points.y1[i];
@@ -45,12 +45,11 @@ inline FloatLanes msac_part(const float* E, const PointArrays<float>& points, st
                             std::size_t last, float inverse_squared_threshold, std::size_t part) {
   FloatLanes total = {};
   for (std::size_t i = first * kPointGroup + part; i < last * kPointGroup; i += kPointGroup) {
-    FloatLanes x1, y1, x2, y2, weight;
-    load(points.x1 + i, x1);
-    load(points.y1 + i, y1);
-    load(points.x2 + i, x2);
-    load(points.y2 + i, y2);
-    load(points.weight + i, weight);
+    const FloatLanes x1 = load(points.x1 + i);
+    const FloatLanes y1 = load(points.y1 + i);
+    const FloatLanes x2 = load(points.x2 + i);
+    const FloatLanes y2 = load(points.y2 + i);
+    const FloatLanes weight = load(points.weight + i);
     const FloatLanes a = E[0] * x1 + E[1] * y1 + E[2];
     const FloatLanes b = E[3] * x1 + E[4] * y1 + E[5];
     const FloatLanes c = E[6] * x1 + E[7] * y1 + E[8];
@@ -70,7 +69,7 @@ float msac(const float* E, const PointArrays<float>& points, std::size_t first, 
   for (std::size_t part = 0; part < kPartialSums<float>; part += kLanes<float>) {
     store(msac_part(E, points, first, last, inverse_squared_threshold, part), partial + part);
   }
-  return sum(partial);
+  return total(partial);
 }
 
 /// Three coordinates per lane.
@@ -115,14 +114,10 @@ void normal_part(const PoseNumbers<Number>& pose, const PointArrays<Number>& poi
   const Number* R = pose.R;
   const Vector<Number> t{pose.t[0], pose.t[1], pose.t[2]};
   for (std::size_t i = part; i < points.padded_size; i += kPartialSums<Number>) {
-    Lanes x1, y1, weight;
-    Vector<Lanes> x2;
-    load(points.x1 + i, x1);
-    load(points.y1 + i, y1);
-    load(points.x2 + i, x2.x);
-    load(points.y2 + i, x2.y);
-    load(points.weight + i, weight);
-    x2.z = weight * 0 + 1;
+    const Lanes x1 = load(points.x1 + i);
+    const Lanes y1 = load(points.y1 + i);
+    const Lanes weight = load(points.weight + i);
+    const Vector<Lanes> x2{load(points.x2 + i), load(points.y2 + i), weight * 0 + 1};
     const Vector<Lanes> y{R[0] * x1 + R[1] * y1 + R[2], R[3] * x1 + R[4] * y1 + R[5],
                           R[6] * x1 + R[7] * y1 + R[8]};
     const Vector<Lanes> q = cross(x2, t);
@@ -175,14 +170,20 @@ void normal_sums(const PoseNumbers<Number>& pose, const PointArrays<Number>& poi
   for (std::size_t part = 0; part < kPartialSums<Number>; part += kLanes<Number>) {
     normal_part<Number, kExact, kNewton>(pose, points, squared_scale, part, partial);
   }
-  out.cost = sum(partial.cost);
-  for (int k = 0; k < 5; ++k) out.g[k] = sum(partial.g[k]);
-  for (int k = 0; k < 15; ++k) out.H[k] = sum(partial.H[k]);
+  out.cost = total(partial.cost);
+  for (int k = 0; k < 5; ++k) out.g[k] = total(partial.g[k]);
+  for (int k = 0; k < 15; ++k) out.H[k] = total(partial.H[k]);
 }
 
-constexpr ConsensusKernels kKernels{&planar_costs, &msac, &normal_sums<float, false, false>,
-                                    &normal_sums<double, true, false>,
-                                    &normal_sums<double, true, true>};
+constexpr ConsensusKernels kConsensusKernels{
+    &planar_costs, &msac, &normal_sums<float, false, false>, &normal_sums<double, true, false>,
+    &normal_sums<double, true, true>};
 
 }  // namespace
+
+template <>
+const ConsensusKernels& simd_kernels_at<ConsensusKernels, kSimdLevel>() {
+  return kConsensusKernels;
+}
+
 }  // namespace oneac::internal

@@ -50,7 +50,7 @@ void require(bool good, const char* field, double value, const char* bound) {
 
 void ConsensusOptions::validate() const {
   const bool some = std::find(pool.on.begin(), pool.on.end(), true) != pool.on.end();
-  require(some, pool_solvers().front()->pool_key(), 0, "true when no other solver is on");
+  require(some, SolverPool::key(0), 0, "true when no other solver is on");
   require(threshold_px > 0.0, "threshold_px", threshold_px, "positive");
   require(pitch_sweep_deg >= 0.0 && pitch_sweep_deg <= 10.0, "pitch_sweep_deg", pitch_sweep_deg,
           "from 0 to 10");

@@ -38,7 +38,7 @@ double msac_cost(const Eigen::Matrix3d& E, const PointSet& points, double thresh
   const auto inverse_squared = static_cast<float>(1.0 / (threshold * threshold));
   const internal::PointArrays<float> arrays = internal::arrays_of(points);
   const std::size_t groups = arrays.padded_size / internal::kPointGroup;
-  const auto& kernels = internal::consensus_kernels(best_simd_level());
+  const auto& kernels = internal::simd_kernels<internal::ConsensusKernels>();
   double cost = 0.0;
   for (std::size_t first = 0; first < groups && cost < give_up; first += kBlock) {
     const std::size_t last = std::min(first + kBlock, groups);

@@ -136,7 +136,7 @@ class Minimiser {
   }
 
   static constexpr bool kHasNewton = std::is_same_v<Number, double>;
-  const internal::ConsensusKernels& kernels_ = internal::consensus_kernels(best_simd_level());
+  const internal::ConsensusKernels& kernels_ = internal::simd_kernels<internal::ConsensusKernels>();
   const BasicPointSet<Number>& points_;
   const PolishOptions& options_;
   PolishResult result_;

@@ -4,6 +4,7 @@
 #include "levelled_acs.h"
 
 #include "oneac/robust/pitch_sweep.h"
+#include "oneac/solvers/registry.h"
 
 #include <algorithm>
 #include <array>
@@ -194,7 +195,7 @@ SearchResult search(AcSpan acs, const Eigen::Matrix3d& R_level_cam, double thres
   SearchResult result;
   LevelledAcs levelled(acs, R_level_cam);
   if (levelled.size() == 0) return result;
-  const ConsensusKernels& kernels = consensus_kernels(best_simd_level());
+  const ConsensusKernels& kernels = simd_kernels<ConsensusKernels>();
   const double width = kSampleWidth * threshold;
   const auto inverse_squared = static_cast<float>(1.0 / (width * width));
   const std::vector<Eigen::Matrix3d>& Q = scope.turns;

@@ -1,5 +1,7 @@
 #include "oneac/robust/solver_pool.h"
 
+#include "oneac/solvers/registry.h"
+
 #include <stdexcept>
 #include <string>
 
@@ -30,6 +32,18 @@ SolverPool SolverPool::only(const Solver& solver) {
   }
   pool[solver.pool_key()] = true;
   return pool;
+}
+
+std::size_t SolverPool::size() {
+  return pool_solvers().size();
+}
+
+const char* SolverPool::key(std::size_t i) {
+  return pool_solvers()[i]->pool_key();
+}
+
+std::string SolverPool::meaning(std::size_t i) {
+  return "hypotheses for " + pool_solvers()[i]->assumptions();
 }
 
 bool& SolverPool::operator[](std::string_view key) {

@@ -3,6 +3,7 @@
 #include "oneac/geometry/angular_errors.h"
 #include "oneac/geometry/homography.h"
 #include "oneac/geometry/leveling.h"
+#include "oneac/solvers/registry.h"
 #include "oneac/test_support/scenes.h"
 
 #include <gtest/gtest.h>

@@ -14,37 +14,23 @@ namespace {
 using internal::BatchKernel;
 using Scalar = SolutionSet<PlanarPose, 1> (*)(const AffineCorrespondence&);
 
-/// One solver at every level, and its scalar form.
-struct BatchSolver {
+/// One solver: its kernel and its scalar form.
+struct BatchForm {
   const char* name;
   Scalar scalar;
-  BatchKernel baseline, avx2, avx512;
-
-  [[nodiscard]] BatchKernel at(SimdLevel level) const {
-    if (level == SimdLevel::kAvx512) return avx512;
-    return level == SimdLevel::kAvx2 ? avx2 : baseline;
-  }
+  BatchKernel internal::BatchKernels::*kernel;
 };
 
-#ifdef ONEAC_BATCH_X86
-constexpr BatchSolver kGround{"relpose_1ac_ground_batch", &relpose_1ac_ground,
-                              &internal::ground_batch_baseline, &internal::ground_batch_avx2,
-                              &internal::ground_batch_avx512};
-constexpr BatchSolver kPlanar{"relpose_1ac_planar_batch", &relpose_1ac_planar,
-                              &internal::planar_batch_baseline, &internal::planar_batch_avx2,
-                              &internal::planar_batch_avx512};
-#else
-constexpr BatchSolver kGround{"relpose_1ac_ground_batch", &relpose_1ac_ground,
-                              &internal::ground_batch_baseline, nullptr, nullptr};
-constexpr BatchSolver kPlanar{"relpose_1ac_planar_batch", &relpose_1ac_planar,
-                              &internal::planar_batch_baseline, nullptr, nullptr};
-#endif
+constexpr BatchForm kGround{"relpose_1ac_ground_batch", &relpose_1ac_ground,
+                            &internal::BatchKernels::ground};
+constexpr BatchForm kPlanar{"relpose_1ac_planar_batch", &relpose_1ac_planar,
+                            &internal::BatchKernels::planar};
 
-void require(const BatchSolver& solver, bool met, const char* what) {
+void require(const BatchForm& solver, bool met, const char* what) {
   if (!met) throw std::invalid_argument(std::string(solver.name) + ": " + what);
 }
 
-void check(const BatchSolver& solver, const AcArrays& acs, const PlanarPoseArrays& poses,
+void check(const BatchForm& solver, const AcArrays& acs, const PlanarPoseArrays& poses,
            SimdLevel level) {
   require(solver, is_supported(level), "level: this processor does not have it, see is_supported");
   if (acs.size == 0) return;
@@ -76,14 +62,14 @@ void decide(Scalar scalar, const AcArrays& acs, const PlanarPoseArrays& poses, s
   poses.tz[i] = found[0].tz;
 }
 
-std::size_t solve(const BatchSolver& solver, const AcArrays& acs, const PlanarPoseArrays& poses,
+std::size_t solve(const BatchForm& solver, const AcArrays& acs, const PlanarPoseArrays& poses,
                   SimdLevel level) {
   check(solver, acs, poses, level);
   const internal::BatchInput in{
       {acs.x1, acs.y1, acs.x2, acs.y2, acs.a11, acs.a12, acs.a21, acs.a22}};
   const internal::BatchOutput out{{poses.cos_alpha, poses.sin_alpha, poses.tx, poses.tz},
                                   poses.valid};
-  solver.at(level)(in, out, acs.size);
+  (internal::simd_kernels<internal::BatchKernels>(level).*solver.kernel)(in, out, acs.size);
   std::size_t valid = 0;
   for (std::size_t i = 0; i < acs.size; ++i) {
     if (poses.valid[i] == internal::kBatchUndecided) decide(solver.scalar, acs, poses, i);
@@ -93,22 +79,6 @@ std::size_t solve(const BatchSolver& solver, const AcArrays& acs, const PlanarPo
 }
 
 }  // namespace
-
-bool is_supported(SimdLevel level) {
-#ifdef ONEAC_BATCH_X86
-  if (level == SimdLevel::kAvx2) return __builtin_cpu_supports("avx2") != 0;
-  if (level == SimdLevel::kAvx512) {
-    return __builtin_cpu_supports("avx512f") != 0 && __builtin_cpu_supports("avx512dq") != 0 &&
-           __builtin_cpu_supports("avx512vl") != 0;
-  }
-#endif
-  return level == SimdLevel::kBaseline;
-}
-
-SimdLevel best_simd_level() {
-  if (is_supported(SimdLevel::kAvx512)) return SimdLevel::kAvx512;
-  return is_supported(SimdLevel::kAvx2) ? SimdLevel::kAvx2 : SimdLevel::kBaseline;
-}
 
 std::size_t relpose_1ac_ground_batch(const AcArrays& acs, const PlanarPoseArrays& poses,
                                      SimdLevel level) {

@@ -1,5 +1,7 @@
 #pragma once
 
+#include "oneac/base/simd.h"
+
 #include <cstddef>
 #include <cstdint>
 
@@ -25,13 +27,16 @@ struct BatchOutput {
 
 using BatchKernel = void (*)(const BatchInput& in, const BatchOutput& out, std::size_t size);
 
-void ground_batch_baseline(const BatchInput& in, const BatchOutput& out, std::size_t size);
-void planar_batch_baseline(const BatchInput& in, const BatchOutput& out, std::size_t size);
-#ifdef ONEAC_BATCH_X86
-void ground_batch_avx2(const BatchInput& in, const BatchOutput& out, std::size_t size);
-void planar_batch_avx2(const BatchInput& in, const BatchOutput& out, std::size_t size);
-void ground_batch_avx512(const BatchInput& in, const BatchOutput& out, std::size_t size);
-void planar_batch_avx512(const BatchInput& in, const BatchOutput& out, std::size_t size);
-#endif
+/// The batch solvers, compiled once per instruction set.
+struct BatchKernels {
+  BatchKernel ground, planar;
+};
+
+template <>
+const BatchKernels& simd_kernels_at<BatchKernels, SimdLevel::kBaseline>();
+template <>
+const BatchKernels& simd_kernels_at<BatchKernels, SimdLevel::kAvx2>();
+template <>
+const BatchKernels& simd_kernels_at<BatchKernels, SimdLevel::kAvx512>();
 
 }  // namespace oneac::internal

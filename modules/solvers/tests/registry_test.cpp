@@ -119,7 +119,7 @@ TEST(SolverList, ThePoolIsOfPlanarMotionsFromOneCorrespondence) {
   }
 }
 
-TEST(SolverList, TableOfTheDocumentationIsTheRegistrys) {
+TEST(SolverList, TableOfTheDocumentationIsTheLists) {
   const std::filesystem::path page = std::filesystem::path(ONEAC_SOLVER_PAGES) / "README.md";
   std::ifstream in(page);
   ASSERT_TRUE(in) << page;

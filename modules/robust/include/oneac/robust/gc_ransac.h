@@ -1,13 +1,14 @@
 #pragma once
 
 #include "oneac/robust/robust_result.h"
-#include "oneac/solvers/registry.h"
 #include "oneac/solvers/span.h"
 
 #include <cstdint>
 #include <string>
 
 namespace oneac {
+
+struct Solver;
 
 /// Graph-cut RANSAC. validate() throws std::invalid_argument naming field, value and bound.
 /// Defaults without a word of their own: docs/decisions/gc-ransac.md.

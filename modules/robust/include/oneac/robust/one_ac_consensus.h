@@ -41,9 +41,8 @@ struct ConsensusOptions {
 
 template <class Visitor>
 void describe(Visitor&& visit, ConsensusOptions& o) {
-  for (std::size_t i = 0; i < pool_solvers().size(); ++i) {
-    const std::string meaning = "hypotheses for " + pool_solvers()[i]->assumptions();
-    visit(pool_solvers()[i]->pool_key(), o.pool.on[i], "bool", meaning.c_str());
+  for (std::size_t i = 0; i < SolverPool::size(); ++i) {
+    visit(SolverPool::key(i), o.pool.on[i], "bool", SolverPool::meaning(i).c_str());
   }
   visit("threshold_px", o.threshold_px, "px", "Sampson inlier bound");
   visit("first_modes", o.first_modes, "count", "polished in a first look without sweep; 0: none");

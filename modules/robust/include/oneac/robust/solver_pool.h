@@ -1,13 +1,14 @@
 #pragma once
 
-#include "oneac/solvers/registry.h"
-
 #include <array>
 #include <cstddef>
+#include <string>
 #include <string_view>
 #include <vector>
 
 namespace oneac {
+
+struct Solver;
 
 /// The rows of the list of solvers that the one-AC consensus may take hypotheses from.
 [[nodiscard]] const std::vector<const Solver*>& pool_solvers();
@@ -21,6 +22,10 @@ struct SolverPool {
   SolverPool();
   /// That solver alone. @throws std::invalid_argument when it is none of the pool
   [[nodiscard]] static SolverPool only(const Solver& solver);
+  /// As parameters: how many, and key and meaning of the i-th.
+  [[nodiscard]] static std::size_t size();
+  [[nodiscard]] static const char* key(std::size_t i);
+  [[nodiscard]] static std::string meaning(std::size_t i);
   /// Whether the solver of that key, such as "ground", is on.
   /// @throws std::invalid_argument when there is none
   [[nodiscard]] bool& operator[](std::string_view key);

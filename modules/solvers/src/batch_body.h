@@ -22,7 +22,7 @@ inline void store_lanes(const PoseLanes& pose, const BatchOutput& out, std::size
   constexpr std::int64_t kSolved = kBatchSolved, kEmpty = kBatchEmpty, kOpen = kBatchUndecided;
   const Mask status =
       (pose.solved & kSolved) | (pose.empty & kEmpty) | (~(pose.solved | pose.empty) & kOpen);
-  for (std::size_t i = 0; i < kLanes; ++i) {
+  for (std::size_t i = 0; i < kLanes<double>; ++i) {
     out.status[first + i] = static_cast<std::uint8_t>(status[i]);
   }
 }
@@ -31,14 +31,14 @@ inline void store_lanes(const PoseLanes& pose, const BatchOutput& out, std::size
 template <PoseLanes (*kSolve)(const AcLanes&)>
 inline void drive(const BatchInput& in, const BatchOutput& out, std::size_t size) {
   std::size_t first = 0;
-  for (; first + kLanes <= size; first += kLanes) {
+  for (; first + kLanes<double> <= size; first += kLanes<double>) {
     store_lanes(kSolve(load_lanes(in, first)), out, first);
   }
   const std::size_t rest = size - first;
   if (rest == 0) return;
-  double entries[8][kLanes] = {};
-  double poses[4][kLanes];
-  std::uint8_t status[kLanes];
+  double entries[8][kLanes<double>] = {};
+  double poses[4][kLanes<double>];
+  std::uint8_t status[kLanes<double>];
   for (std::size_t k = 0; k < 8; ++k) {
     for (std::size_t i = 0; i < rest; ++i) entries[k][i] = in.entry[k][first + i];
   }
@@ -51,5 +51,21 @@ inline void drive(const BatchInput& in, const BatchOutput& out, std::size_t size
   }
 }
 
+void ground(const BatchInput& in, const BatchOutput& out, std::size_t size) {
+  drive<ground_poses>(in, out, size);
+}
+
+void planar(const BatchInput& in, const BatchOutput& out, std::size_t size) {
+  drive<planar_poses>(in, out, size);
+}
+
+constexpr BatchKernels kBatchKernels{&ground, &planar};
+
 }  // namespace
+
+template <>
+const BatchKernels& simd_kernels_at<BatchKernels, kSimdLevel>() {
+  return kBatchKernels;
+}
+
 }  // namespace oneac::internal
