@@ -10,6 +10,8 @@
 
 #include <benchmark/benchmark.h>
 
+#include <Eigen/Geometry>
+#include <Eigen/SVD>
 #include <opencv2/calib3d.hpp>
 #include <opencv2/imgproc.hpp>
 

@@ -53,7 +53,7 @@ void solve_homographies(AcSpan acs) {
   }
 }
 
-void solve_tilted(AcSpan acs, fuzz::Numbers& numbers) {
+void solve_with_gravity(AcSpan acs, fuzz::Numbers& numbers) {
   const Eigen::Vector3d down1(numbers.number(), numbers.number(), numbers.number());
   const Eigen::Vector3d down2(numbers.number(), numbers.number(), numbers.number());
   check_poses("relpose_1ac_ground", solve_tilted(acs[0], down1, down2, relpose_1ac_ground));
@@ -74,5 +74,5 @@ ONEAC_FUZZ_TARGET(solvers) {
   const auto acs = fuzz::correspondences(numbers, count);
   solve_listed(acs);
   solve_homographies(acs);
-  solve_tilted(acs, numbers);
+  solve_with_gravity(acs, numbers);
 }

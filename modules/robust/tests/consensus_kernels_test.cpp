@@ -1,6 +1,6 @@
-#include "consensus_kernels.h"
+#include "consensus/consensus_kernels.h"
 
-#include "point_arrays.h"
+#include "polish/point_arrays.h"
 
 #include "oneac/geometry/essential.h"
 #include "oneac/robust/point_set.h"

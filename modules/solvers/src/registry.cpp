@@ -1,6 +1,7 @@
 #include "oneac/solvers/registry.h"
 
-#include "oneac/geometry/essential.h"
+#include "solver_forms.h"
+
 #include "oneac/solvers/essential_5pc.h"
 #include "oneac/solvers/essential_8pc.h"
 #include "oneac/solvers/homography_2ac.h"
@@ -18,101 +19,12 @@
 
 #include <algorithm>
 #include <stdexcept>
-#include <type_traits>
 
 namespace oneac {
 namespace {
 
-/// What the solutions of a solver are.
-enum class Gives { kPoses, kHomographies, kEssentials };
-
-PlanePose with_plane(const PlanarPose& s) {
-  return {s.pose(), Eigen::Vector3d::UnitY()};
-}
-PlanePose with_plane(const WallPose& s) {
-  return {s.pose(), s.normal()};
-}
-PlanePose with_plane(const PitchedPose& s) {
-  return {s.pose(), Eigen::Vector3d::UnitY()};
-}
-
-/// The solver's own solution set, whatever form its parameters have.
-template <auto kSolve>
-auto call(AcSpan acs) {
-  using Function = decltype(kSolve);
-  if constexpr (std::is_invocable_v<Function, AcSpan, const double*>) {
-    return kSolve(acs, nullptr);
-  } else if constexpr (std::is_invocable_v<Function, AcSpan>) {
-    return kSolve(acs);
-  } else {
-    return kSolve(acs[0]);
-  }
-}
-
-template <auto kSolve>
-std::size_t count(AcSpan acs) {
-  return call<kSolve>(acs).size();
-}
-
-template <auto kSolve, Gives kGives>
-PoseSet poses(AcSpan acs) {
-  PoseSet set;
-  for (const auto& solution : call<kSolve>(acs)) {
-    if constexpr (kGives == Gives::kPoses) {
-      set.push_back(with_plane(solution));
-    } else if constexpr (kGives == Gives::kHomographies) {
-      for (const PlanePose& pose : poses_from_homography(solution, acs)) set.push_back(pose);
-    } else {
-      for (const RelativePose& pose : pose_from_essential(solution, acs)) set.push_back({pose});
-    }
-  }
-  return set;
-}
-
-void add_essential(const RelativePose& T, EssentialSet& set) {
-  const double length = T.t.norm();
-  if (length > 0.0) set.push_back(essential_matrix({T.R, T.t / length}));
-}
-
-template <auto kSolve, Gives kGives>
-EssentialSet essentials(AcSpan acs) {
-  EssentialSet set;
-  for (const auto& solution : call<kSolve>(acs)) {
-    if constexpr (kGives == Gives::kPoses) {
-      add_essential(solution.pose(), set);
-    } else if constexpr (kGives == Gives::kHomographies) {
-      for (const PlanePose& pose : poses_from_homography(solution, acs)) {
-        add_essential(pose.motion, set);
-      }
-    } else {
-      set.push_back(solution);
-    }
-  }
-  return set;
-}
-
-template <auto kSolve>
-PlanarPoseSet planar(const AffineCorrespondence& ac) {
-  PlanarPoseSet set;
-  for (const PlanarPose& pose : kSolve(ac)) set.push_back(pose);
-  return set;
-}
-
-/// The columns of a row from its minimal and its least-squares function (nullptr: none).
-template <auto kMinimal, auto kLeastSquares, Gives kGives = Gives::kPoses>
-constexpr SolverFunctions functions() {
-  using Set = decltype(call<kMinimal>(AcSpan()));
-  using Solution = std::decay_t<decltype(std::declval<Set>()[0])>;
-  SolverFunctions run{
-      static_cast<int>(Set::kCapacity), &count<kMinimal>, &essentials<kMinimal, kGives>,
-      &poses<kMinimal, kGives>,         nullptr,          nullptr};
-  if constexpr (kLeastSquares != nullptr) run.least_squares = &poses<kLeastSquares, kGives>;
-  constexpr bool kOfOne = std::is_invocable_v<decltype(kMinimal), const AffineCorrespondence&>;
-  if constexpr (kOfOne && std::is_base_of_v<PlanarPose, Solution>) {
-    if constexpr (Set::kCapacity <= PlanarPoseSet::kCapacity) run.planar = &planar<kMinimal>;
-  }
-  return run;
-}
+using internal::functions;
+using internal::Gives;
 
 // Suspension between two frames: up to 2.5° of pitch on a car, plus what the levelling leaves.
 constexpr double kMaxPitch = 3.0 * 3.14159265358979323846 / 180.0;
@@ -160,16 +72,17 @@ using Motion = SolverMotion;
 using Surface = SolverSurface;
 constexpr bool kAffine = true, kPoint = false;
 
-// clang-format off
 constexpr Solver kRows[] = {
-    {"relpose_1ac_ground", "1AC ground", "1ac_ground", 1, kAffine, Motion::kPlanar, Surface::kGround,
-     "yaw, t", "camera height", 62, functions<&relpose_1ac_ground, &relpose_nac_ground>(),
-     PoolUse::kOn, &relpose_1ac_ground_batch},
-    {"relpose_1ac_ground_rapid", "1AC ground rapid", "", 1, kAffine, Motion::kPlanar, Surface::kGround,
-     "yaw, t", "camera height", 82, functions<&relpose_1ac_ground_rapid, &relpose_nac_ground_rapid>()},
-    {"relpose_1ac_side_wall", "1AC side wall", "1ac_side", 1, kAffine, Motion::kPlanar, Surface::kSideWall,
-     "yaw, t", "wall distance", 53, functions<&relpose_1ac_side_wall, &relpose_nac_side_wall>(),
-     PoolUse::kOff},
+    {"relpose_1ac_ground", "1AC ground", "1ac_ground", 1, kAffine, Motion::kPlanar,
+     Surface::kGround, "yaw, t", "camera height", 62,
+     functions<&relpose_1ac_ground, &relpose_nac_ground>(), PoolUse::kOn,
+     &relpose_1ac_ground_batch},
+    {"relpose_1ac_ground_rapid", "1AC ground rapid", "", 1, kAffine, Motion::kPlanar,
+     Surface::kGround, "yaw, t", "camera height", 82,
+     functions<&relpose_1ac_ground_rapid, &relpose_nac_ground_rapid>()},
+    {"relpose_1ac_side_wall", "1AC side wall", "1ac_side", 1, kAffine, Motion::kPlanar,
+     Surface::kSideWall, "yaw, t", "wall distance", 53,
+     functions<&relpose_1ac_side_wall, &relpose_nac_side_wall>(), PoolUse::kOff},
     {"relpose_1ac_side_wall_rapid", "1AC side wall rapid", "", 1, kAffine, Motion::kPlanar,
      Surface::kSideWall, "yaw, t", "wall distance", 78,
      functions<&relpose_1ac_side_wall_rapid, &relpose_nac_side_wall_rapid>()},
@@ -186,30 +99,29 @@ constexpr Solver kRows[] = {
      Surface::kWall, "yaw, ±t, ±normal", "wall distance", 90,
      functions<&relpose_1ac_wall_candidates, nullptr>()},
     {"relpose_1ac_planar", "1AC planar", "1ac_planar", 1, kAffine, Motion::kPlanar, Surface::kAny,
-     "yaw, direction", "1", 67, functions<&relpose_1ac_planar, &relpose_nac_planar>(),
-     PoolUse::kOn, &relpose_1ac_planar_batch},
-    {"relpose_1ac_planar_pitch", "1AC planar pitch", "", 1, kAffine, Motion::kPitched, Surface::kAny,
-     "yaw, direction, pitch", "1", 2600, functions<&planar_pitch, &nac_planar_pitch>()},
+     "yaw, direction", "1", 67, functions<&relpose_1ac_planar, &relpose_nac_planar>(), PoolUse::kOn,
+     &relpose_1ac_planar_batch},
+    {"relpose_1ac_planar_pitch", "1AC planar pitch", "", 1, kAffine, Motion::kPitched,
+     Surface::kAny, "yaw, direction, pitch", "1", 2600,
+     functions<&planar_pitch, &nac_planar_pitch>()},
     {"relpose_1pc_ackermann", "1PC Ackermann", "1pc", 1, kPoint, Motion::kCircular, Surface::kAny,
      "yaw", "1", 40, functions<&relpose_1pc_ackermann, &relpose_1pc_ackermann>()},
     {"relpose_2pc_ground", "2PC ground", "2pc_ground", 2, kPoint, Motion::kPlanar, Surface::kGround,
      "yaw, t", "camera height", 64, functions<&relpose_2pc_ground, &relpose_2pc_ground>()},
     {"relpose_2pc_planar", "2PC planar", "2pc_planar", 2, kPoint, Motion::kPlanar, Surface::kAny,
      "yaw, direction", "1", 330, functions<&relpose_2pc_planar, nullptr>()},
-    {"relpose_3pc_vertical", "3PC vertical", "3pc_vertical", 3, kPoint, Motion::kPlanar, Surface::kWall,
-     "yaw, t, normal", "wall distance", 610, functions<&relpose_3pc_vertical, &relpose_3pc_vertical>()},
-    {"homography_2ac", "2AC", "2ac", 2, kAffine, Motion::kAny, Surface::kPlane,
-     "H (R, t, normal)", "plane distance", 4400,
-     functions<&homography_2ac, &homography_2ac, Gives::kHomographies>()},
-    {"homography_4pc", "4PC", "4pc", 4, kPoint, Motion::kAny, Surface::kPlane,
-     "H (R, t, normal)", "plane distance", 1100,
-     functions<&homography_4pc, &homography_4pc, Gives::kHomographies>()},
-    {"essential_5pc", "5PC", "5pc", 5, kPoint, Motion::kAny, Surface::kAny,
-     "E (R, direction)", "1", 6700, functions<&essential_5pc, nullptr, Gives::kEssentials>()},
-    {"essential_8pc", "8PC", "8pc", 8, kPoint, Motion::kAny, Surface::kNoPlane,
-     "E (R, direction)", "1", 1400, functions<&essential_8pc, &essential_8pc, Gives::kEssentials>()},
+    {"relpose_3pc_vertical", "3PC vertical", "3pc_vertical", 3, kPoint, Motion::kPlanar,
+     Surface::kWall, "yaw, t, normal", "wall distance", 610,
+     functions<&relpose_3pc_vertical, &relpose_3pc_vertical>()},
+    {"homography_2ac", "2AC", "2ac", 2, kAffine, Motion::kAny, Surface::kPlane, "H (R, t, normal)",
+     "plane distance", 4400, functions<&homography_2ac, &homography_2ac, Gives::kHomographies>()},
+    {"homography_4pc", "4PC", "4pc", 4, kPoint, Motion::kAny, Surface::kPlane, "H (R, t, normal)",
+     "plane distance", 1100, functions<&homography_4pc, &homography_4pc, Gives::kHomographies>()},
+    {"essential_5pc", "5PC", "5pc", 5, kPoint, Motion::kAny, Surface::kAny, "E (R, direction)", "1",
+     6700, functions<&essential_5pc, nullptr, Gives::kEssentials>()},
+    {"essential_8pc", "8PC", "8pc", 8, kPoint, Motion::kAny, Surface::kNoPlane, "E (R, direction)",
+     "1", 1400, functions<&essential_8pc, &essential_8pc, Gives::kEssentials>()},
 };
-// clang-format on
 
 }  // namespace
 

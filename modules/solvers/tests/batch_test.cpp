@@ -1,6 +1,6 @@
 #include "oneac/solvers/batch.h"
 
-#include "batch_kernels.h"
+#include "batch/batch_kernels.h"
 #include "solver_test_tools.h"
 
 #include "oneac/solvers/relpose_1ac_ground.h"
