@@ -53,6 +53,27 @@ function(oneac_module name)
   oneac_install_module(${name} ${M_PUBLIC} ${M_PRIVATE})
 endfunction()
 
+# oneac_simd(NAME FILE): compiles FILE of module NAME once per instruction set of base/simd.h, with
+# ONEAC_SIMD_BYTES of register; simd_kernels() chooses among them at run time.
+function(oneac_simd name file)
+  set(levels "16")
+  set(flags_32 -mavx2)
+  set(flags_64 -mavx512f -mavx512dq -mavx512vl)
+  if(CMAKE_SYSTEM_PROCESSOR MATCHES "^(x86_64|AMD64|amd64)$")
+    list(APPEND levels 32 64)
+  endif()
+  get_filename_component(folder "${CMAKE_CURRENT_SOURCE_DIR}/${file}" DIRECTORY)
+  get_filename_component(body "${file}" NAME)
+  get_filename_component(stem "${file}" NAME_WE)
+  foreach(bytes IN LISTS levels)
+    set(source "${CMAKE_CURRENT_BINARY_DIR}/simd/${stem}_${bytes}.cpp")
+    file(CONFIGURE OUTPUT "${source}" CONTENT "#define ONEAC_SIMD_BYTES ${bytes}\n#include \"${body}\"\n")
+    set_source_files_properties("${source}" PROPERTIES INCLUDE_DIRECTORIES "${folder}"
+                                COMPILE_OPTIONS "${flags_${bytes}}")
+    target_sources(oneac_${name} PRIVATE "${source}")
+  endforeach()
+endfunction()
+
 # oneac_test(NAME SOURCES ... LINK ...): GoogleTest program NAME, every test known to ctest.
 function(oneac_test name)
   if(NOT ONEAC_BUILD_TESTS)

@@ -47,14 +47,13 @@ void list_figures() {
 
 void list_solvers() {
   std::cout << "\nSolvers:\n";
-  for (const SolverInfo& solver : kSolvers) {
-    const std::string needs =
-        std::to_string(solver.correspondences) + (solver.affine                 ? " AC"
-                                                  : solver.correspondences == 1 ? " point"
-                                                                                : " points");
+  for (const Solver& solver : solvers()) {
+    const std::string needs = std::to_string(solver.sample) + (solver.affine        ? " AC"
+                                                               : solver.sample == 1 ? " point"
+                                                                                    : " points");
     std::cout << "  " << std::left << std::setw(29) << solver.name << std::setw(10) << needs
-              << solver.assumptions << "; gives " << solver.unknowns << ", up to "
-              << solver.max_candidates << '\n';
+              << solver.assumptions() << "; gives " << solver.unknowns << ", up to "
+              << solver.run.max_candidates << '\n';
   }
 }
 

@@ -54,14 +54,14 @@ const std::vector<Variant> kVariants = {
     {"whole search", [](ConsensusOptions&) {}},
     {"ground only, no pitch, 1 mode",
      [](ConsensusOptions& o) {
-       o.planar = false;
+       o.pool["planar"] = false;
        o.pitch_sweep_deg = 0.0;
        o.modes = o.finalists = 1;
      }},
     {"+ side, front and general walls",
      [](ConsensusOptions& o) {
-       o.planar = false;
-       o.side_wall = o.front_wall = o.wall = true;
+       o.pool["planar"] = false;
+       o.pool["side_wall"] = o.pool["front_wall"] = o.pool["wall"] = true;
        o.pitch_sweep_deg = 0.0;
        o.modes = o.finalists = 1;
      }},
@@ -80,9 +80,12 @@ const std::vector<Variant> kVariants = {
     {"pitch sweep, 16 modes", [](ConsensusOptions& o) { o.modes = 16; }},
     {"40 modes, no pitch sweep", [](ConsensusOptions& o) { o.pitch_sweep_deg = 0.0; }},
     {"40 modes, pitch and roll sweep", [](ConsensusOptions& o) { o.roll_sweep_deg = 1.0; }},
-    {"40 modes, ground only", [](ConsensusOptions& o) { o.planar = false; }},
-    {"40 modes, plane-free only", [](ConsensusOptions& o) { o.ground = false; }},
-    {"40 modes, + walls", [](ConsensusOptions& o) { o.side_wall = o.front_wall = o.wall = true; }},
+    {"40 modes, ground only", [](ConsensusOptions& o) { o.pool["planar"] = false; }},
+    {"40 modes, plane-free only", [](ConsensusOptions& o) { o.pool["ground"] = false; }},
+    {"40 modes, + walls",
+     [](ConsensusOptions& o) {
+       o.pool["side_wall"] = o.pool["front_wall"] = o.pool["wall"] = true;
+     }},
 };
 
 void ablation(const std::vector<LogPair>& pairs, const Trajectory& truth, const char* title,

@@ -13,11 +13,8 @@
 #include "oneac/geometry/angular_errors.h"
 #include "oneac/geometry/homography.h"
 #include "oneac/geometry/leveling.h"
-#include "oneac/solvers/relpose_1ac_front_wall.h"
-#include "oneac/solvers/relpose_1ac_ground.h"
-#include "oneac/solvers/relpose_1ac_planar.h"
-#include "oneac/solvers/relpose_1ac_side_wall.h"
-#include "oneac/solvers/relpose_1ac_wall.h"
+#include "oneac/solvers/registry.h"
+#include "oneac/solvers/registry.h"
 
 #include <Eigen/LU>
 #include <opencv2/core.hpp>
@@ -137,14 +134,10 @@ RelativePose relative(const Eigen::Matrix4d& one, const Eigen::Matrix4d& two) {
 /// Every pose that a single correspondence proposes, levelled.
 std::vector<RelativePose> hypotheses(const AffineCorrespondence& ac) {
   std::vector<RelativePose> poses;
-  const auto add = [&poses](const auto& set) {
-    for (const auto& solution : set) poses.push_back(solution.pose());
-  };
-  add(relpose_1ac_ground(ac));
-  add(relpose_1ac_front_wall(ac));
-  add(relpose_1ac_side_wall(ac));
-  add(relpose_1ac_wall(ac));
-  add(relpose_1ac_planar(ac));
+  for (const Solver& solver : solvers()) {
+    if (solver.pool == PoolUse::kNever) continue;
+    for (const PlanarPose& solution : solver.run.planar(ac)) poses.push_back(solution.pose());
+  }
   return poses;
 }
 

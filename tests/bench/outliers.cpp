@@ -11,6 +11,7 @@
 #include "oneac/base/atomic_file.h"
 #include "oneac/robust/gc_ransac.h"
 #include "oneac/robust/one_ac_consensus.h"
+#include "oneac/solvers/registry.h"
 #include "oneac/study/line_plot.h"
 
 #include <algorithm>
@@ -33,9 +34,10 @@ struct Contestant {
   PairEstimator estimate;
 };
 
-Contestant in_gc_ransac(const char* name, MinimalMethod method, bool drawn) {
-  return {name, drawn, [method](AcSpan acs, const LogPair& pair) {
-            return gc_ransac(acs, pair.R_level_cam, pair.focal_px, method, 1, {});
+Contestant in_gc_ransac(const char* name, bool drawn) {
+  const Solver& solver = solver_named(name);
+  return {std::string(solver.label), drawn, [&solver](AcSpan acs, const LogPair& pair) {
+            return gc_ransac(acs, pair.R_level_cam, pair.focal_px, solver, 1, {});
           }};
 }
 
@@ -44,12 +46,12 @@ std::vector<Contestant> contestants() {
            [](AcSpan acs, const LogPair& pair) {
              return one_ac_consensus(acs, pair.R_level_cam, pair.focal_px, {});
            }},
-          in_gc_ransac("1AC ground", MinimalMethod::k1acGround, true),
-          in_gc_ransac("1AC wall", MinimalMethod::k1acWall, false),
-          in_gc_ransac("2PC ground", MinimalMethod::k2pcGround, false),
-          in_gc_ransac("3PC vertical", MinimalMethod::k3pcVertical, false),
-          in_gc_ransac("5PC", MinimalMethod::k5pc, true),
-          in_gc_ransac("8PC", MinimalMethod::k8pc, true)};
+          in_gc_ransac("relpose_1ac_ground", true),
+          in_gc_ransac("relpose_1ac_wall", false),
+          in_gc_ransac("relpose_2pc_ground", false),
+          in_gc_ransac("relpose_3pc_vertical", false),
+          in_gc_ransac("essential_5pc", true),
+          in_gc_ransac("essential_8pc", true)};
 }
 
 void draw(const std::string& path, std::vector<PlotCurve> curves) {

@@ -3,9 +3,9 @@
 
 #include "oneac/geometry/leveling.h"
 #include "oneac/robust/gc_ransac.h"
-#include "oneac/robust/gc_ransac_homography.h"
 #include "oneac/robust/ground_scale.h"
 #include "oneac/robust/one_ac_consensus.h"
+#include "oneac/solvers/registry.h"
 
 #include <algorithm>
 #include <cmath>
@@ -42,10 +42,10 @@ ConsensusOptions small_consensus(std::uint8_t kinds) {
   options.modes = 4;
   options.finalists = 2;
   options.min_inliers = 5;
-  options.side_wall = (kinds & 1U) != 0;
-  options.front_wall = (kinds & 2U) != 0;
-  options.wall = (kinds & 4U) != 0;
-  options.planar = (kinds & 8U) == 0;
+  options.pool["side_wall"] = (kinds & 1U) != 0;
+  options.pool["front_wall"] = (kinds & 2U) != 0;
+  options.pool["wall"] = (kinds & 4U) != 0;
+  options.pool["planar"] = (kinds & 8U) == 0;
   return options;
 }
 
@@ -63,10 +63,9 @@ GcRansacOptions small_gc_ransac() {
 ONEAC_FUZZ_TARGET(estimators) {
   constexpr std::size_t kMost = 48;
   constexpr double kFocal_px = 700.0;
-  constexpr double kThreshold = 1.0 / kFocal_px;
   fuzz::Numbers numbers(data);
   const std::uint8_t kinds = numbers.byte();
-  const auto method = kMinimalMethods[numbers.byte() % kMinimalMethods.size()];
+  const Solver& solver = solvers()[numbers.byte() % solvers().size()];
   const std::size_t count = numbers.byte() % kMost;
   const Eigen::Matrix3d R_level_cam = leveling_rotation({0.1, 0.02});
   const auto acs = fuzz::correspondences(numbers, count);
@@ -74,10 +73,7 @@ ONEAC_FUZZ_TARGET(estimators) {
   const auto consensus = one_ac_consensus(acs, R_level_cam, kFocal_px, small_consensus(kinds));
   check_result(consensus, count);
   check_scale(acs, consensus, R_level_cam);
-  const auto ransac = gc_ransac(acs, R_level_cam, kFocal_px, method, 1, small_gc_ransac());
+  const auto ransac = gc_ransac(acs, R_level_cam, kFocal_px, solver, 1, small_gc_ransac());
   check_result(ransac, count);
   check_scale(acs, ransac, R_level_cam);
-  const auto plane = fit_homography(acs, kThreshold, HomographyMethod::k2ac, 1, small_gc_ransac());
-  fuzz::check(plane.H.allFinite(), "a homography is finite");
-  check_inliers(plane.inliers, plane.inlier_count, count);
 }

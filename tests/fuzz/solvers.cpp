@@ -1,20 +1,23 @@
-// Every solver on any doubles: no NaN, rotations are rotations, sets keep their bounds.
+// Every solver of the list on any doubles: no NaN, rotations are rotations, sets keep their bounds.
 #include "correspondences.h"
 
-#include "oneac/geometry/essential.h"
-#include "oneac/solvers/essential_5pc.h"
-#include "oneac/solvers/essential_8pc.h"
 #include "oneac/solvers/gravity.h"
 #include "oneac/solvers/homography_2ac.h"
 #include "oneac/solvers/homography_4pc.h"
-#include "oneac/solvers/homography_decomposition.h"
+#include "oneac/solvers/registry.h"
+#include "oneac/solvers/relpose_1ac_ground.h"
+#include "oneac/solvers/relpose_1ac_planar.h"
+#include "oneac/solvers/relpose_1ac_planar_pitch.h"
+#include "oneac/solvers/relpose_1ac_wall.h"
+#include "oneac/solvers/relpose_2pc_ground.h"
+#include "oneac/solvers/relpose_3pc_vertical.h"
 
 namespace {
 
 using namespace oneac;
 
 template <class Solutions>
-void check_poses(const char* solver, const Solutions& solutions) {
+void check_poses(std::string_view solver, const Solutions& solutions) {
   try {
     fuzz::check(solutions.size() <= Solutions::kCapacity, "a set keeps its bound");
     for (const auto& solution : solutions) fuzz::check_pose(solution.pose());
@@ -29,56 +32,37 @@ void check_matrices(const SolutionSet<Eigen::Matrix3d, N>& solutions) {
   for (const Eigen::Matrix3d& M : solutions) fuzz::check(M.allFinite(), "a matrix is finite");
 }
 
-void solve_one(const AffineCorrespondence& ac) {
-  check_poses("relpose_1ac_ground", relpose_1ac_ground(ac));
-  check_poses("relpose_1ac_ground_rapid", relpose_1ac_ground_rapid(ac));
-  check_poses("relpose_1ac_side_wall", relpose_1ac_side_wall(ac));
-  check_poses("relpose_1ac_side_wall_rapid", relpose_1ac_side_wall_rapid(ac));
-  check_poses("relpose_1ac_front_wall", relpose_1ac_front_wall(ac));
-  check_poses("relpose_1ac_front_wall_rapid", relpose_1ac_front_wall_rapid(ac));
-  check_poses("relpose_1ac_wall", relpose_1ac_wall(ac));
-  check_poses("relpose_1ac_wall_candidates", relpose_1ac_wall_candidates(ac));
-  check_poses("relpose_1ac_planar", relpose_1ac_planar(ac));
-  check_poses("relpose_1ac_planar_pitch", relpose_1ac_planar_pitch(ac));
+void solve_listed(AcSpan acs) {
+  for (const Solver& solver : solvers()) {
+    if (solver.run.least_squares != nullptr)
+      check_poses(solver.name, solver.run.least_squares(acs));
+    if (acs.size() < solver.sample) continue;
+    const auto count = static_cast<int>(solver.run.count(acs));
+    fuzz::check(count <= solver.run.max_candidates, "a set keeps its bound");
+    check_poses(solver.name, solver.run.poses(acs));
+    check_matrices(solver.run.essentials(acs));
+  }
+  check_poses("relpose_1ac_planar_pitch", relpose_1ac_planar_pitch(acs[0]));
 }
 
-void solve_many(AcSpan acs) {
-  check_poses("relpose_nac_ground", relpose_nac_ground(acs));
-  check_poses("relpose_nac_ground_rapid", relpose_nac_ground_rapid(acs));
-  check_poses("relpose_nac_side_wall", relpose_nac_side_wall(acs));
-  check_poses("relpose_nac_front_wall", relpose_nac_front_wall(acs));
-  check_poses("relpose_nac_wall", relpose_nac_wall(acs));
-  check_poses("relpose_nac_planar_pitch", relpose_nac_planar_pitch(acs));
-  check_poses("relpose_1pc_ackermann", relpose_1pc_ackermann(acs));
-  check_poses("relpose_2pc_ground", relpose_2pc_ground(acs));
-  check_poses("relpose_2pc_planar", relpose_2pc_planar(acs));
-  check_poses("relpose_3pc_vertical", relpose_3pc_vertical(acs));
-}
-
-void solve_general(AcSpan acs) {
+void solve_homographies(AcSpan acs) {
   for (const auto& set : {homography_2ac(acs), homography_4pc(acs)}) {
     check_matrices(set);
-    for (const Eigen::Matrix3d& H : set) {
+    for (const Eigen::Matrix3d& H : set)
       check_poses("decompose_homography", decompose_homography(H));
-      check_poses("poses_from_homography", poses_from_homography(H, acs));
-    }
   }
-  const auto five = essential_5pc(acs);
-  check_matrices(five);
-  for (const Eigen::Matrix3d& E : five) {
-    for (const RelativePose& pose : pose_from_essential(E, acs)) fuzz::check_pose(pose);
-  }
-  check_matrices(essential_8pc(acs));
 }
 
-void solve_tilted(AcSpan acs, fuzz::Numbers& numbers) {
+void solve_with_gravity(AcSpan acs, fuzz::Numbers& numbers) {
   const Eigen::Vector3d down1(numbers.number(), numbers.number(), numbers.number());
   const Eigen::Vector3d down2(numbers.number(), numbers.number(), numbers.number());
-  check_poses("relpose_1ac_ground", relpose_1ac_ground(acs[0], down1, down2));
-  check_poses("relpose_1ac_wall", relpose_1ac_wall(acs[0], down1, down2));
-  check_poses("relpose_1ac_planar", relpose_1ac_planar(acs[0], down1, down2));
-  check_poses("relpose_2pc_ground", relpose_2pc_ground(acs, down1, down2));
-  check_poses("relpose_3pc_vertical", relpose_3pc_vertical(acs, down1, down2));
+  check_poses("relpose_1ac_ground", solve_tilted(acs[0], down1, down2, relpose_1ac_ground));
+  check_poses("relpose_1ac_wall", solve_tilted(acs[0], down1, down2, relpose_1ac_wall));
+  check_poses("relpose_1ac_planar", solve_tilted(acs[0], down1, down2, relpose_1ac_planar));
+  check_poses("relpose_2pc_ground",
+              solve_tilted<2>(acs, down1, down2, [](AcSpan s) { return relpose_2pc_ground(s); }));
+  check_poses("relpose_3pc_vertical",
+              solve_tilted<3>(acs, down1, down2, [](AcSpan s) { return relpose_3pc_vertical(s); }));
 }
 
 }  // namespace
@@ -88,8 +72,7 @@ ONEAC_FUZZ_TARGET(solvers) {
   fuzz::Numbers numbers(data);
   const std::size_t count = 1 + numbers.byte() % kMost;
   const auto acs = fuzz::correspondences(numbers, count);
-  solve_one(acs.front());
-  solve_many(acs);
-  solve_general(acs);
-  solve_tilted(acs, numbers);
+  solve_listed(acs);
+  solve_homographies(acs);
+  solve_with_gravity(acs, numbers);
 }

@@ -27,7 +27,7 @@ TESTS = {"solvers": ["solvers_test"], "geometry": ["geometry_test", "solvers_tes
 
 def equations():
     """The files whose lines are changed."""
-    files = sorted((ROOT / "modules/solvers/src").glob("*"))
+    files = sorted((ROOT / "modules/solvers/src").glob("**/*.*"))
     files += sorted((ROOT / "modules/geometry/src").glob("*.cpp"))
     return [str(file.relative_to(ROOT)) for file in files]
 

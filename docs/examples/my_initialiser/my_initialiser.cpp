@@ -1,6 +1,7 @@
 #include <oneac/geometry/leveling.h>
 #include <oneac/initialisers/relative_pose_initialiser.h>
 #include <oneac/solvers/gravity.h>
+#include <oneac/solvers/relpose_1ac_ground.h>
 
 #include <mrpt/core/initializer.h>
 
@@ -20,7 +21,7 @@ class MedianOfGround : public oneac::RelativePoseInitialiser {
     const Eigen::Vector3d down = input.R_level_cam.transpose() * Eigen::Vector3d::UnitY();
     std::vector<oneac::RelativePose> poses;  // of levelled cameras
     for (const oneac::AffineCorrespondence& ac : input.acs) {
-      for (const auto& found : oneac::relpose_1ac_ground(ac, down, down)) {
+      for (const auto& found : oneac::solve_tilted(ac, down, down, oneac::relpose_1ac_ground)) {
         poses.push_back(oneac::level(found.motion, input.R_level_cam));
       }
     }

@@ -55,7 +55,7 @@ struct Problem {
 
   [[nodiscard]] bool set_weights(const float* weights) {
     weight = weights;
-    const PatchKernels& kernels = patch_kernels();
+    const PatchKernels& kernels = simd_kernels<PatchKernels>();
     if constexpr (kCount == kAffineParameters) {
       kernels.affine_normal(window(), patch.patch, weight, normal);
     } else {
@@ -74,7 +74,7 @@ struct Problem {
     const float gain = static_cast<float>(warp.gain) * patch.patch.contrast;
     const float bias =
         static_cast<float>(warp.gain) * patch.patch.mean + static_cast<float>(warp.bias);
-    const PatchKernels& kernels = patch_kernels();
+    const PatchKernels& kernels = simd_kernels<PatchKernels>();
     if constexpr (kCount == kTranslationParameters) {
       kernels.shift_residuals(*grid, window(), patch.patch, gain, bias, sums);
     } else {
@@ -168,7 +168,8 @@ bool refine_robustly(Problem<kAffineParameters>& problem, PatchWarp& warp, doubl
                        static_cast<double>(window.weight_sum);
   alignas(64) float weights[kMaxSamples];
   const double cut = std::max(kTukey * sigma, 1e-6);
-  patch_kernels().tukey(window, problem.residual, static_cast<float>(1.0 / cut), weights);
+  simd_kernels<PatchKernels>().tukey(window, problem.residual, static_cast<float>(1.0 / cut),
+                                     weights);
   if (!problem.set_weights(weights) || !iterate(problem, warp, kConverged, rate)) return false;
   float kept = 0.0F;
   for (std::size_t i = 0; i < window.size; ++i) kept += weights[i];
@@ -193,7 +194,7 @@ bool anchor_patch(const ImagePyramid& pyramid, std::size_t level, const PatchWin
   const auto grid =
       place(pyramid, level, here, static_cast<double>(window.radius) + 1.0, margin_at(level) + 1.0);
   if (!grid) return false;
-  patch_kernels().make_template(*grid, window, patch.patch);
+  simd_kernels<PatchKernels>().make_template(*grid, window, patch.patch);
   // Coarse levels average the texture away: there only what is blank is refused.
   const double least = level == 0 ? kLeastContrast * kGrey : 0.5 * kLeastContrast * kGrey;
   return static_cast<double>(patch.patch.contrast) >= least;
@@ -238,7 +239,8 @@ double compare_patch(const AnchoredPatch& patch, const ImagePyramid& image, cons
 
 double expected_affine_sigma(AnchoredPatch& patch) {
   float upper[kAffineParameters * (kAffineParameters + 1) / 2];
-  patch_kernels().affine_normal(*patch.window, patch.patch, patch.window->weight, upper);
+  simd_kernels<PatchKernels>().affine_normal(*patch.window, patch.patch, patch.window->weight,
+                                             upper);
   patch.inverted = patch.inverse.set(upper);
   if (!patch.inverted) return HUGE_VAL;
   AlignmentQuality quality;

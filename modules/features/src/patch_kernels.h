@@ -1,5 +1,7 @@
 #pragma once
 
+#include "oneac/base/simd.h"
+
 #include <cstddef>
 #include <cstdint>
 
@@ -80,20 +82,11 @@ struct PatchKernels {
   void (*tukey)(const PatchWindow& window, const float* residual, float inverse_c, float* weight);
 };
 
-/// Instruction sets the kernels exist for.
-enum class PatchLevel { kBaseline, kAvx2, kAvx512 };
-
-/// Whether this build and processor have the level.
-[[nodiscard]] bool has_patch_level(PatchLevel level);
-/// @pre has_patch_level(level)
-[[nodiscard]] const PatchKernels& patch_kernels(PatchLevel level);
-/// The fastest of this processor.
-[[nodiscard]] const PatchKernels& patch_kernels();
-
-extern const PatchKernels kPatchKernelsBaseline;
-#ifdef ONEAC_PATCH_X86
-extern const PatchKernels kPatchKernelsAvx2;
-extern const PatchKernels kPatchKernelsAvx512;
-#endif
+template <>
+const PatchKernels& simd_kernels_at<PatchKernels, SimdLevel::kBaseline>();
+template <>
+const PatchKernels& simd_kernels_at<PatchKernels, SimdLevel::kAvx2>();
+template <>
+const PatchKernels& simd_kernels_at<PatchKernels, SimdLevel::kAvx512>();
 
 }  // namespace oneac::internal

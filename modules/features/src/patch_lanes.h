@@ -2,36 +2,17 @@
 
 #include "patch_kernels.h"
 
-#if defined(__x86_64__)
-#include <immintrin.h>
-#endif
+#include "oneac/base/simd_lanes.h"
 
-// Included by one source per instruction set, which defines ONEAC_PATCH_WIDTH (4, 8 or 16 floats).
-// Everything lives in an unnamed namespace and nothing inline of the standard library is used: the
-// linker must not take a function compiled for AVX as the one for all.
 namespace oneac::internal {
 namespace {
 
-constexpr std::size_t kWidth = ONEAC_PATCH_WIDTH;
-static_assert(kPatchLanes % kWidth == 0);
+constexpr std::size_t kWidth = kLanes<float>;
+static_assert(kPatchLanes == kPartialSums<float>);
 
-typedef float Floats __attribute__((vector_size(4 * ONEAC_PATCH_WIDTH)));
-typedef std::int32_t Ints __attribute__((vector_size(4 * ONEAC_PATCH_WIDTH)));
-typedef std::uint32_t Bits __attribute__((vector_size(4 * ONEAC_PATCH_WIDTH)));
-
-inline Floats load(const float* from) {
-  Floats lanes;
-  __builtin_memcpy(&lanes, from, sizeof lanes);
-  return lanes;
-}
-
-inline void store(const Floats& lanes, float* to) {
-  __builtin_memcpy(to, &lanes, sizeof lanes);
-}
-
-inline Floats magnitude(const Floats& x) {
-  return x < 0.0F ? -x : x;
-}
+using Floats = FloatLanes;
+using Ints = IntLanes;
+using Bits = BitLanes;
 
 // The address sanitizer does not watch gathers: its builds load one lane after the other.
 #ifdef __SANITIZE_ADDRESS__
@@ -42,10 +23,10 @@ inline Floats magnitude(const Floats& x) {
 
 /// Two neighbouring pixels of 16 bits per lane: the left one in the lower half.
 inline Bits load_pairs(const std::uint16_t* data, const Ints& index) {
-#if ONEAC_PATCH_WIDTH == 16 && ONEAC_PATCH_GATHER
+#if ONEAC_SIMD_BYTES == 64 && ONEAC_PATCH_GATHER
   return reinterpret_cast<Bits>(_mm512_mask_i32gather_epi32(
       _mm512_setzero_si512(), 0xFFFF, reinterpret_cast<__m512i>(index), data, 2));
-#elif ONEAC_PATCH_WIDTH == 8 && ONEAC_PATCH_GATHER
+#elif ONEAC_SIMD_BYTES == 32 && ONEAC_PATCH_GATHER
   return reinterpret_cast<Bits>(_mm256_i32gather_epi32(reinterpret_cast<const int*>(data),
                                                        reinterpret_cast<__m256i>(index), 2));
 #else
@@ -64,13 +45,13 @@ inline Bits load_pairs(const std::uint16_t* data, const Ints& index) {
 
 /// Neighbouring pixels.
 inline Floats load_row(const std::uint16_t* from) {
-#if ONEAC_PATCH_WIDTH == 16
+#if ONEAC_SIMD_BYTES == 64
   __m256i words;  // the generic conversion below takes twice the instructions here
   __builtin_memcpy(&words, from, sizeof words);
   return __builtin_convertvector(reinterpret_cast<Ints>(_mm512_maskz_cvtepu16_epi32(0xFFFF, words)),
                                  Floats);
 #else
-  typedef std::uint16_t Pixels __attribute__((vector_size(2 * ONEAC_PATCH_WIDTH)));
+  typedef std::uint16_t Pixels __attribute__((vector_size(ONEAC_SIMD_BYTES / 2)));
   Pixels pixels;
   __builtin_memcpy(&pixels, from, sizeof pixels);
   return __builtin_convertvector(__builtin_convertvector(pixels, Ints), Floats);
@@ -100,15 +81,6 @@ inline Floats interpolate(const SampleGrid& grid, const Floats& u, const Floats&
 inline Floats sample(const SampleGrid& grid, const Floats& x, const Floats& y) {
   return interpolate(grid, grid.a11 * x + grid.a12 * y + grid.u,
                      grid.a21 * x + grid.a22 * y + grid.v);
-}
-
-/// Adds the partial sums in the one order that all levels share.
-inline float total(const float* partial) {
-  typedef float Four __attribute__((vector_size(16)));
-  Four part[4];
-  __builtin_memcpy(part, partial, sizeof part);
-  const Four sum = (part[0] + part[2]) + (part[1] + part[3]);
-  return (sum[0] + sum[2]) + (sum[1] + sum[3]);
 }
 
 }  // namespace

@@ -99,8 +99,14 @@ inline void tukey(const PatchWindow& window, const float* residual, float invers
   }
 }
 
-constexpr PatchKernels kLoops{&make_template, &residuals,          &shift_residuals,
-                              &affine_normal, &translation_normal, &tukey};
+constexpr PatchKernels kPatchKernels{&make_template, &residuals,          &shift_residuals,
+                                     &affine_normal, &translation_normal, &tukey};
 
 }  // namespace
+
+template <>
+const PatchKernels& simd_kernels_at<PatchKernels, kSimdLevel>() {
+  return kPatchKernels;
+}
+
 }  // namespace oneac::internal

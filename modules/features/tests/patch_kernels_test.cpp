@@ -16,8 +16,8 @@ namespace {
 struct Outcome {
   std::vector<float> numbers;
 
-  explicit Outcome(PatchLevel level) {
-    const PatchKernels& kernels = patch_kernels(level);
+  explicit Outcome(SimdLevel level) {
+    const PatchKernels& kernels = simd_kernels<PatchKernels>(level);
     View second;
     second.A << 1.05, 0.02, -0.03, 0.98;
     const auto one = build_pyramid(render(Texture(21), View{}).view(), 2);
@@ -79,9 +79,9 @@ struct Outcome {
 };
 
 TEST(PatchKernels, GiveTheSameBytesAtEveryLevel) {
-  const Outcome baseline(PatchLevel::kBaseline);
-  for (const PatchLevel level : {PatchLevel::kAvx2, PatchLevel::kAvx512}) {
-    if (!has_patch_level(level)) {
+  const Outcome baseline(SimdLevel::kBaseline);
+  for (const SimdLevel level : {SimdLevel::kAvx2, SimdLevel::kAvx512}) {
+    if (!is_supported(level)) {
       std::printf("level %d is not on this processor\n", static_cast<int>(level));
       continue;
     }
@@ -102,7 +102,7 @@ TEST(PatchKernels, GiveTheSameSumsForAShiftAsForAllParameters) {
   for (const double radius : {6.0, 8.0, 9.0}) {
     const PatchWindow window = padded_window(radius);
     PatchTemplate patch{};
-    const PatchKernels& kernels = patch_kernels();
+    const PatchKernels& kernels = simd_kernels<PatchKernels>();
     kernels.make_template(*place(pyramid, 0, here, radius + 1.0, 0.0), window, patch);
     const SampleGrid grid = *place(pyramid, 0, there, radius, 0.0);
     AlignmentSums all, shift;
@@ -124,7 +124,7 @@ TEST(PatchKernels, WarpTheTemplateAsTheResidualsWarpTheImage) {
   here.centre = {150.25, 140.5};
   here.M << 1.1, 0.1, -0.05, 0.9;
   PatchTemplate patch{};
-  const PatchKernels& kernels = patch_kernels();
+  const PatchKernels& kernels = simd_kernels<PatchKernels>();
   kernels.make_template(*place(pyramid, 1, here, 7.0, 0.0), window, patch);
   AlignmentSums sums;
   alignas(64) float residual[kMaxSamples];
@@ -139,7 +139,7 @@ TEST(PatchKernels, SumTheNormalMatrixOfAllParameters) {
   PatchWarp here;
   here.centre = {150.25, 140.5};
   PatchTemplate patch{};
-  patch_kernels().make_template(*place(pyramid, 0, here, 9.0, 0.0), window, patch);
+  simd_kernels<PatchKernels>().make_template(*place(pyramid, 0, here, 9.0, 0.0), window, patch);
   double expected[kAffineParameters][kAffineParameters] = {};
   for (std::size_t i = 0; i < window.size; ++i) {
     const double x = window.x[i] / 8.0, y = window.y[i] / 8.0, gx = patch.gx[i], gy = patch.gy[i];
@@ -151,7 +151,7 @@ TEST(PatchKernels, SumTheNormalMatrixOfAllParameters) {
     }
   }
   float upper[36];
-  patch_kernels().affine_normal(window, patch, window.weight, upper);
+  simd_kernels<PatchKernels>().affine_normal(window, patch, window.weight, upper);
   std::size_t k = 0;
   for (std::size_t row = 0; row < kAffineParameters; ++row) {
     for (std::size_t column = row; column < kAffineParameters; ++column) {
@@ -166,7 +166,7 @@ TEST(PatchKernels, NormaliseTheTemplate) {
   PatchWarp here;
   here.centre = {150.25, 140.5};
   PatchTemplate patch{};
-  patch_kernels().make_template(*place(pyramid, 0, here, 12.0, 0.0), window, patch);
+  simd_kernels<PatchKernels>().make_template(*place(pyramid, 0, here, 12.0, 0.0), window, patch);
   double sum = 0.0, squares = 0.0, weights = 0.0;
   for (std::size_t i = 0; i < window.size; ++i) {
     const auto w = static_cast<double>(window.weight[i]), t = static_cast<double>(patch.value[i]);

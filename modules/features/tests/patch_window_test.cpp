@@ -23,8 +23,8 @@ TEST(PatchWindow, LeavesOutEverySecondRow) {
   const auto image = build_pyramid(render(Texture(27), View{}).view(), 1);
   PatchWarp here;
   here.centre = {201.3, 155.8};
-  patch_kernels().make_template(*place(image, 0, here, 12.0, 0.0), all, every);
-  patch_kernels().make_template(*place(image, 0, here, 12.0, 0.0), half, second);
+  simd_kernels<PatchKernels>().make_template(*place(image, 0, here, 12.0, 0.0), all, every);
+  simd_kernels<PatchKernels>().make_template(*place(image, 0, here, 12.0, 0.0), half, second);
   for (std::size_t i = 0, k = 0; i < half.size; ++i) {
     if (!(half.weight[i] > 0.0F)) continue;
     while (all.x[k] != half.x[i] || all.y[k] != half.y[i]) ASSERT_LT(++k, all.size);

@@ -1,11 +1,14 @@
+#include "method_initialiser.h"
+
 #include "oneac/base/error.h"
-#include "oneac/initialisers/method_initialisers.h"
 #include "oneac/initialisers/yaml_parameters.h"
 #include "oneac/robust/degeneracy.h"
 
 #include <mrpt/containers/yaml.h>
 
 #include <algorithm>
+#include <cctype>
+#include <deque>
 #include <iterator>
 #include <stdexcept>
 #include <utility>
@@ -21,14 +24,14 @@ bool contains(const std::vector<std::string>& names, const std::string& name) {
 }
 
 /// GC-RANSAC with what it does not look for itself.
-RobustResult gc_ransac_with_degeneracies(const InitialiserInput& input, MinimalMethod method,
+RobustResult gc_ransac_with_degeneracies(const InitialiserInput& input, const Solver& solver,
                                          const InitialiserOptions& options) {
   const double threshold = options.gc_ransac.threshold_px / input.focal_px;
   const DegeneracyBounds bounds{threshold, options.consensus.standing_px / input.focal_px};
   if (!input.acs.empty()) {
     if (auto stood = standing(input.acs, bounds)) return *stood;
   }
-  RobustResult result = gc_ransac(input.acs, input.R_level_cam, input.focal_px, method, input.seed,
+  RobustResult result = gc_ransac(input.acs, input.R_level_cam, input.focal_px, solver, input.seed,
                                   options.gc_ransac);
   if (result.status != PoseStatus::kOk) return result;
   if (auto turned = turning(input.acs, result.pose.R, bounds)) {
@@ -37,6 +40,37 @@ RobustResult gc_ransac_with_degeneracies(const InitialiserInput& input, MinimalM
   }
   settle_one_plane(input.acs, input.R_level_cam, threshold, result);
   return result;
+}
+
+/// "1ac_ground" becomes "oneac::Initialiser1acGround".
+std::string class_name_of(const std::string& method) {
+  std::string name = "oneac::Initialiser";
+  bool upper = true;
+  for (const char c : method) {
+    if (c != '_') name += upper ? static_cast<char>(std::toupper(c)) : c;
+    upper = c == '_';
+  }
+  return name;
+}
+
+void add_method(const std::string& name, const Solver* solver, std::deque<Method>& methods) {
+  Method& method = methods.emplace_back(Method{name, solver, class_name_of(name), {}});
+  method.id = {method.class_name.c_str(),
+               [&method] { return std::make_shared<MethodInitialiser>(method); },
+               [] { return CLASS_ID(RelativePoseInitialiser); }};
+}
+
+/// One per solver that has a method, and the pool; where they stand is where MRPT finds them.
+const std::deque<Method>& methods() {
+  static const std::deque<Method> kMethods = [] {
+    std::deque<Method> all;
+    for (const Solver& solver : solvers()) {
+      if (!solver.method.empty()) add_method(std::string(solver.method), &solver, all);
+    }
+    add_method("1ac_pooled", nullptr, all);
+    return all;
+  }();
+  return kMethods;
 }
 
 /// Inlier flags of the finite correspondences, put back in the places of all.
@@ -52,8 +86,9 @@ std::vector<bool> spread(const std::vector<bool>& of_finite, AcSpan acs) {
 
 std::vector<std::string> MethodInitialiser::estimators() const {
   std::vector<std::string> names;
-  if (method().choose_solvers != nullptr) names.emplace_back(kConsensus);
-  if (method().minimal) names.emplace_back(kGcRansac);
+  const Solver* solver = method_->solver;
+  if (solver == nullptr || solver->pool != PoolUse::kNever) names.emplace_back(kConsensus);
+  if (solver != nullptr) names.emplace_back(kGcRansac);
   return names;
 }
 
@@ -96,11 +131,15 @@ InitialiserResult MethodInitialiser::estimate(const InitialiserInput& input) con
 InitialiserResult MethodInitialiser::estimate_finite(const InitialiserInput& input) const {
   const std::string estimator =
       options_.estimator == "default" ? estimators().front() : options_.estimator;
-  if (estimator == kGcRansac)
-    return gc_ransac_with_degeneracies(input, *method().minimal, options_);
+  if (estimator == kGcRansac) return gc_ransac_with_degeneracies(input, *method_->solver, options_);
   ConsensusOptions consensus = options_.consensus;
-  method().choose_solvers(consensus);
+  if (method_->solver != nullptr) consensus.pool = SolverPool::only(*method_->solver);
   return one_ac_consensus(input.acs, input.R_level_cam, input.focal_px, consensus);
+}
+
+void register_methods() {
+  mrpt::rtti::registerClass(CLASS_ID(RelativePoseInitialiser));
+  for (const Method& method : methods()) mrpt::rtti::registerClass(&method.id);
 }
 
 }  // namespace oneac

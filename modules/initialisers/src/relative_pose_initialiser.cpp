@@ -1,8 +1,9 @@
 #include "oneac/initialisers/relative_pose_initialiser.h"
 
+#include "method_initialiser.h"
+
 #include "oneac/base/error.h"
 #include "oneac/base/nearest_name.h"
-#include "oneac/initialisers/method_initialisers.h"
 
 #include <algorithm>
 

@@ -10,6 +10,10 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
 
 namespace oneac {
 namespace {
@@ -30,10 +34,41 @@ TEST(MakeInitialiser, KnowsTheMethodsByShortAndByClassName) {
   EXPECT_EQ(make_initialiser("oneac::Initialiser1acGround")->name(), "1ac_ground");
 }
 
-TEST(MakeInitialiser, IsReachableThroughMrptsOwnFactory) {
+TEST(MakeInitialiser, EveryMethodIsReachableThroughMrptsOwnFactory) {
   ASSERT_FALSE(initialiser_names().empty());
-  const auto object = mrpt::rtti::classFactory("oneac::Initialiser1acPooled");
-  EXPECT_NE(std::dynamic_pointer_cast<RelativePoseInitialiser>(object), nullptr);
+  for (const auto& [class_name, name] :
+       std::map<std::string, std::string>{{"1acGround", "1ac_ground"},
+                                          {"1acSide", "1ac_side"},
+                                          {"1acFront", "1ac_front"},
+                                          {"1acWall", "1ac_wall"},
+                                          {"1acPlanar", "1ac_planar"},
+                                          {"1acPooled", "1ac_pooled"},
+                                          {"2pcGround", "2pc_ground"},
+                                          {"2pcPlanar", "2pc_planar"},
+                                          {"3pcVertical", "3pc_vertical"},
+                                          {"1pc", "1pc"},
+                                          {"5pc", "5pc"},
+                                          {"8pc", "8pc"},
+                                          {"4pc", "4pc"},
+                                          {"2ac", "2ac"}}) {
+    const auto object = std::dynamic_pointer_cast<RelativePoseInitialiser>(
+        mrpt::rtti::classFactory("oneac::Initialiser" + class_name));
+    ASSERT_NE(object, nullptr) << class_name;
+    EXPECT_EQ(object->name(), name);
+    EXPECT_TRUE(object->GetRuntimeClass()->derivedFrom("oneac::RelativePoseInitialiser"));
+  }
+}
+
+TEST(MakeInitialiser, AMethodsOptionsGoWithItsClone) {
+  const auto configured = make_initialiser("5pc");
+  configured->configure(mrpt::containers::yaml::FromText("gc_ransac: {min_inliers: 1000}"));
+  const std::unique_ptr<mrpt::rtti::CObject> object(configured->clone());
+  const auto* clone = dynamic_cast<const RelativePoseInitialiser*>(object.get());
+  ASSERT_NE(clone, nullptr);
+  SceneGenerator scene(6);
+  const auto acs = street(scene, scene.planar_motion());
+  EXPECT_EQ(clone->estimate({acs, Eigen::Matrix3d::Identity(), 700.0, 0}).status,
+            PoseStatus::kTooFew);
 }
 
 TEST(MakeInitialiser, ListsTheNamesWhenOneIsUnknown) {

@@ -1,6 +1,6 @@
-#include "consensus_kernels.h"
+#include "consensus/consensus_kernels.h"
 
-#include "point_arrays.h"
+#include "polish/point_arrays.h"
 
 #include "oneac/geometry/essential.h"
 #include "oneac/robust/point_set.h"
@@ -56,7 +56,7 @@ TEST(ConsensusKernels, GiveTheSameBitsAtEveryLevel) {
     int levels = 0;
     for (SimdLevel level : kLevels) {
       if (!is_supported(level)) continue;
-      const ConsensusKernels& k = consensus_kernels(level);
+      const ConsensusKernels& k = simd_kernels<ConsensusKernels>(level);
       k.normal_sums(some_pose<float>(), arrays_of(points), 0.1F, sums[levels]);
       k.normal_sums_double(some_pose<double>(), arrays_of(precise), 0.1, precise_sums[levels]);
       k.newton_sums(some_pose<double>(), arrays_of(precise), 0.1, newton_sums[levels]);
@@ -83,9 +83,9 @@ TEST(ConsensusKernels, PlanarCostsAreThoseOfTheEssentialMatrix) {
   std::vector<float> e23(16, static_cast<float>(E(1, 2))), e32(16, static_cast<float>(E(2, 1)));
   float costs[16];
   constexpr double kThreshold = 0.1;
-  consensus_kernels(best_simd_level())
-      .planar_costs({e12.data(), e21.data(), e23.data(), e32.data(), 16}, arrays_of(points),
-                    static_cast<float>(1.0 / (kThreshold * kThreshold)), costs);
+  simd_kernels<ConsensusKernels>().planar_costs(
+      {e12.data(), e21.data(), e23.data(), e32.data(), 16}, arrays_of(points),
+      static_cast<float>(1.0 / (kThreshold * kThreshold)), costs);
   EXPECT_NEAR(costs[7], msac_cost(E, points, kThreshold, 1e9), 1e-3);
 }
 
@@ -97,7 +97,7 @@ TEST(ConsensusKernels, PaddingWeighsNothing) {
     v->resize(32, 0.0F);
   }
   NormalSums<float> plain, with_padding;
-  const ConsensusKernels& k = consensus_kernels(SimdLevel::kBaseline);
+  const ConsensusKernels& k = simd_kernels<ConsensusKernels>(SimdLevel::kBaseline);
   k.normal_sums(some_pose<float>(), arrays_of(PointSet(acs)), 0.1F, plain);
   k.normal_sums(some_pose<float>(), arrays_of(padded), 0.1F, with_padding);
   EXPECT_TRUE(same_bits(plain, with_padding));

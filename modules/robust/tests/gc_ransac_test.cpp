@@ -3,6 +3,7 @@
 #include "oneac/geometry/angular_errors.h"
 #include "oneac/geometry/homography.h"
 #include "oneac/geometry/leveling.h"
+#include "oneac/solvers/registry.h"
 #include "oneac/test_support/scenes.h"
 
 #include <gtest/gtest.h>
@@ -25,34 +26,31 @@ Plane vertical_plane(double normal_angle, double distance) {
 }
 
 /// A point of a random plane; the planes of a street when the solver wants one of them.
-Plane plane_for(MinimalMethod method, SceneGenerator& scene, int i) {
-  switch (method) {
-    case MinimalMethod::k1acGround:
-    case MinimalMethod::k2pcGround:
+Plane plane_for(const Solver& solver, SceneGenerator& scene, int i) {
+  switch (solver.surface) {
+    case SolverSurface::kGround:
       return i % 2 == 0 ? scene.ground() : scene.any_plane();
-    case MinimalMethod::k1acSideWall:
+    case SolverSurface::kSideWall:
       return i % 2 == 0 ? vertical_plane(0.0, 3.0) : scene.any_plane();
-    case MinimalMethod::k1acFrontWall:
+    case SolverSurface::kFrontWall:
       return i % 2 == 0 ? vertical_plane(90.0 * kDegree, 8.0) : scene.any_plane();
-    case MinimalMethod::k1acWall:
-    case MinimalMethod::k3pcVertical:
-    case MinimalMethod::k4pc:
-    case MinimalMethod::k2ac:  // three of four on one wall, so that samples meet it
+    case SolverSurface::kWall:
+    case SolverSurface::kPlane:  // three of four on one wall, so that samples meet it
       return i % 4 != 0 ? vertical_plane(50.0 * kDegree, 6.0) : scene.any_plane();
     default:
       return scene.any_plane();
   }
 }
 
-RelativePose motion_for(MinimalMethod method, SceneGenerator& scene) {
-  if (method == MinimalMethod::k1pcAckermann) {
+RelativePose motion_for(const Solver& solver, SceneGenerator& scene) {
+  if (solver.motion == SolverMotion::kCircular) {
     const double alpha = scene.uniform(-0.2, 0.2);
     return {yaw_rotation(std::cos(alpha), std::sin(alpha)),
             {std::sin(alpha / 2.0), 0.0, -std::cos(alpha / 2.0)}};
   }
-  if (!minimal_model(method).planar) return scene.general_motion();
+  if (!solver.levelled()) return scene.general_motion();
   RelativePose T = scene.planar_motion();
-  if (method == MinimalMethod::k1acPlanarPitch) {
+  if (solver.motion == SolverMotion::kPitched) {
     const Eigen::Matrix3d pitch = pitch_rotation(1.5 * kDegree);
     T = {pitch * T.R, pitch * T.t};
   }
@@ -60,11 +58,11 @@ RelativePose motion_for(MinimalMethod method, SceneGenerator& scene) {
 }
 
 /// 300 correspondences with a third of a pixel of noise; `outliers` of a hundred are wrong.
-std::vector<AffineCorrespondence> scene_for(MinimalMethod method, SceneGenerator& scene,
+std::vector<AffineCorrespondence> scene_for(const Solver& solver, SceneGenerator& scene,
                                             const RelativePose& T, int outliers) {
   std::vector<AffineCorrespondence> acs;
   for (int i = 0; i < 300; ++i) {
-    const Plane plane = plane_for(method, scene, i);
+    const Plane plane = plane_for(solver, scene, i);
     acs.push_back(scene.with_noise(scene.on_plane(T, plane), 0.3 / kFocal, 0.005));
     if (i % 100 < outliers) acs.back().x2 = scene.image_point();
   }
@@ -84,7 +82,7 @@ bool same_bits(const RobustResult& a, const RobustResult& b) {
          a.statistics.graph_cuts == b.statistics.graph_cuts;
 }
 
-class GcRansacMethod : public testing::TestWithParam<MinimalMethod> {};
+class GcRansacMethod : public testing::TestWithParam<Solver> {};
 
 TEST_P(GcRansacMethod, FindsTheMotionAmongFortyPercentOutliers) {
   SceneGenerator scene(31);
@@ -124,18 +122,17 @@ TEST_P(GcRansacMethod, GivesTheSameBitsForTheSameSeed) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(AllMethods, GcRansacMethod, testing::ValuesIn(kMinimalMethods),
-                         [](const auto& test) {
-                           return "m" + std::string(minimal_model(test.param).name);
-                         });
+INSTANTIATE_TEST_SUITE_P(AllMethods, GcRansacMethod, testing::ValuesIn(solvers()),
+                         [](const auto& test) { return std::string(test.param.name); });
 
 TEST(GcRansac, DrawsOtherSamplesForAnotherSeed) {
   SceneGenerator scene(34);
-  const auto acs = scene_for(MinimalMethod::k5pc, scene, scene.general_motion(), 40);
+  const auto acs = scene_for(solver_named("essential_5pc"), scene, scene.general_motion(), 40);
   GcRansacOptions raw;
   raw.lo_iterations = 0;
   const auto hypotheses = [&](std::uint64_t seed) {
-    return gc_ransac(acs, kLevel, kFocal, MinimalMethod::k5pc, seed, raw).statistics.hypotheses;
+    return gc_ransac(acs, kLevel, kFocal, solver_named("essential_5pc"), seed, raw)
+        .statistics.hypotheses;
   };
   EXPECT_NE(hypotheses(1), hypotheses(2));
 }
@@ -144,10 +141,11 @@ TEST(GcRansac, NeedsFewerIterationsWithFewerOutliers) {
   std::size_t previous = 0;
   for (int outliers : {10, 40, 60}) {
     SceneGenerator scene(35);
-    const auto acs = scene_for(MinimalMethod::k5pc, scene, scene.general_motion(), outliers);
+    const auto acs =
+        scene_for(solver_named("essential_5pc"), scene, scene.general_motion(), outliers);
     GcRansacOptions options;
     options.min_iterations = 1;
-    const auto result = gc_ransac(acs, kLevel, kFocal, MinimalMethod::k5pc, 1, options);
+    const auto result = gc_ransac(acs, kLevel, kFocal, solver_named("essential_5pc"), 1, options);
     EXPECT_GT(result.statistics.iterations, previous) << outliers << " % outliers";
     previous = result.statistics.iterations;
   }
@@ -156,11 +154,11 @@ TEST(GcRansac, NeedsFewerIterationsWithFewerOutliers) {
 TEST(GcRansac, IgnoresCorrespondencesThatAreNotFinite) {
   SceneGenerator scene(36);
   const RelativePose T = scene.planar_motion();
-  auto acs = scene_for(MinimalMethod::k1acPlanar, scene, T, 20);
+  auto acs = scene_for(solver_named("relpose_1ac_planar"), scene, T, 20);
   acs[30].A(0, 0) = std::numeric_limits<double>::quiet_NaN();
   acs[31].x2.x() = std::numeric_limits<double>::infinity();
   acs[32].x1.y() = std::numeric_limits<double>::quiet_NaN();
-  const auto result = gc_ransac(acs, kLevel, kFocal, MinimalMethod::k1acPlanar, 1, {});
+  const auto result = gc_ransac(acs, kLevel, kFocal, solver_named("relpose_1ac_planar"), 1, {});
   expect_close(result, T);
   ASSERT_EQ(result.inliers.size(), acs.size());
   for (std::size_t i : {30U, 31U, 32U}) EXPECT_FALSE(result.inliers[i]) << i;
@@ -168,8 +166,8 @@ TEST(GcRansac, IgnoresCorrespondencesThatAreNotFinite) {
 }
 
 TEST(GcRansac, RefusesTooFewCorrespondencesAndNoise) {
-  for (MinimalMethod method : kMinimalMethods) {
-    EXPECT_EQ(gc_ransac({}, kLevel, kFocal, method, 1, {}).status, PoseStatus::kTooFew);
+  for (const Solver& solver : solvers()) {
+    EXPECT_EQ(gc_ransac({}, kLevel, kFocal, solver, 1, {}).status, PoseStatus::kTooFew);
     SceneGenerator scene(37);
     std::vector<AffineCorrespondence> acs(40);
     for (auto& ac : acs)
@@ -177,8 +175,8 @@ TEST(GcRansac, RefusesTooFewCorrespondencesAndNoise) {
     GcRansacOptions strict;
     strict.min_inliers = 30;
     strict.max_iterations = 200;
-    const RobustResult result = gc_ransac(acs, kLevel, kFocal, method, 1, strict);
-    EXPECT_EQ(result.status, PoseStatus::kTooFew) << minimal_model(method).name;
+    const RobustResult result = gc_ransac(acs, kLevel, kFocal, solver, 1, strict);
+    EXPECT_EQ(result.status, PoseStatus::kTooFew) << solver.name;
     EXPECT_TRUE(result.pose.R.isIdentity());
     EXPECT_EQ(result.pose.t.norm(), 0.0);
     EXPECT_EQ(result.inliers.size(), acs.size());
@@ -188,14 +186,14 @@ TEST(GcRansac, RefusesTooFewCorrespondencesAndNoise) {
 TEST(GcRansac, WorksWithoutOptimisationAndWithEitherRefit) {
   SceneGenerator scene(38);
   const RelativePose T = scene.general_motion();
-  const auto acs = scene_for(MinimalMethod::k5pc, scene, T, 40);
+  const auto acs = scene_for(solver_named("essential_5pc"), scene, T, 40);
   GcRansacOptions options;
   for (const char* model : {"8pc", "polish", "both"}) {
     options.lo_model = model;
-    expect_close(gc_ransac(acs, kLevel, kFocal, MinimalMethod::k5pc, 1, options), T);
+    expect_close(gc_ransac(acs, kLevel, kFocal, solver_named("essential_5pc"), 1, options), T);
   }
   options.lo_iterations = 0;
-  const auto raw = gc_ransac(acs, kLevel, kFocal, MinimalMethod::k5pc, 1, options);
+  const auto raw = gc_ransac(acs, kLevel, kFocal, solver_named("essential_5pc"), 1, options);
   expect_close(raw, T);
   EXPECT_EQ(raw.statistics.local_optimisations, 0U);
   EXPECT_EQ(raw.statistics.graph_cuts, 0U);
@@ -203,12 +201,13 @@ TEST(GcRansac, WorksWithoutOptimisationAndWithEitherRefit) {
 
 TEST(GcRansac, StopsAfterEverySingleCorrespondenceWasDrawn) {
   SceneGenerator scene(39);
-  const auto acs = scene_for(MinimalMethod::k1acGround, scene, scene.planar_motion(), 40);
+  const auto acs = scene_for(solver_named("relpose_1ac_ground"), scene, scene.planar_motion(), 40);
   GcRansacOptions options;
   options.min_iterations = options.max_iterations = 5000;
   for (const char* sampler : {"uniform", "prosac"}) {
     options.sampler = sampler;
-    const auto result = gc_ransac(acs, kLevel, kFocal, MinimalMethod::k1acGround, 1, options);
+    const auto result =
+        gc_ransac(acs, kLevel, kFocal, solver_named("relpose_1ac_ground"), 1, options);
     EXPECT_EQ(result.statistics.iterations, acs.size()) << sampler;
   }
 }
@@ -235,7 +234,7 @@ TEST(GcRansacOptions, NameFieldValueAndBound) {
   EXPECT_NE(fault([](auto& o) { o.lo_model = "7pc"; }), "");
   EXPECT_NE(fault([](auto& o) { o.neighbourhood_cells = 0; }), "");
   EXPECT_NE(fault([](auto& o) { o.min_inliers = 4; }), "");
-  EXPECT_THROW((void)gc_ransac({}, kLevel, -1.0, MinimalMethod::k5pc, 1, {}),
+  EXPECT_THROW((void)gc_ransac({}, kLevel, -1.0, solver_named("essential_5pc"), 1, {}),
                std::invalid_argument);
 }
 

@@ -1,4 +1,4 @@
-#include "normal_solve.h"
+#include "polish/normal_solve.h"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 #include "oneac/solvers/batch.h"
 
-#include "batch_kernels.h"
+#include "batch/batch_kernels.h"
 #include "solver_test_tools.h"
 
 #include "oneac/solvers/relpose_1ac_ground.h"
@@ -227,10 +227,11 @@ TEST_P(BatchSolver, DoesNotAllocate) {
 
 INSTANTIATE_TEST_SUITE_P(
     Solvers, BatchSolver,
-    testing::Values(Forms{"Ground", &relpose_1ac_ground, &relpose_1ac_ground_batch,
-                          &internal::ground_batch_baseline},
-                    Forms{"Planar", &relpose_1ac_planar, &relpose_1ac_planar_batch,
-                          &internal::planar_batch_baseline}),
+    testing::Values(
+        Forms{"Ground", &relpose_1ac_ground, &relpose_1ac_ground_batch,
+              internal::simd_kernels_at<internal::BatchKernels, SimdLevel::kBaseline>().ground},
+        Forms{"Planar", &relpose_1ac_planar, &relpose_1ac_planar_batch,
+              internal::simd_kernels_at<internal::BatchKernels, SimdLevel::kBaseline>().planar}),
     [](const auto& forms) { return std::string(forms.param.name); });
 
 }  // namespace

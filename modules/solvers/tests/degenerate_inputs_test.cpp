@@ -1,13 +1,12 @@
-// Every solver of the registry against every degenerate input: what it returns is the table of
+// Every solver of the list against every degenerate input: what it returns is the table of
 // docs/solvers/README.md.
 
-#include "every_solver.h"
+#include "point_solver_tools.h"
 
-#include "oneac/solvers/registry.h"
+#include "oneac/test_support/solver_scenes.h"
 
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <fstream>
@@ -33,21 +32,13 @@ struct Scene {
 
 struct Degeneracy {
   const char* name;
-  std::vector<Correspondences> (*inputs)(const EverySolver&, SceneGenerator&, const Scene&);
+  std::vector<Correspondences> (*inputs)(const Solver&, SceneGenerator&, const Scene&);
 };
 
-bool is_affine(const EverySolver& solver) {
-  return std::any_of(kSolvers.begin(), kSolvers.end(), [&](const SolverInfo& info) {
-    return info.name == solver.name && info.affine;
-  });
-}
-
 /// `value` in each entry of the first correspondence in turn; points only have four.
-std::vector<Correspondences> with_entry(const EverySolver& solver, const Scene& scene,
-                                        double value) {
-  const bool affine = is_affine(solver);
+std::vector<Correspondences> with_entry(const Solver& solver, const Scene& scene, double value) {
   std::vector<Correspondences> list;
-  for (int i = 0; i < (affine ? 8 : 4); ++i) {
+  for (int i = 0; i < (solver.affine ? 8 : 4); ++i) {
     Correspondences acs = scene.acs;
     if (i < 2) acs[0].x1(i) = value;
     if (i >= 2 && i < 4) acs[0].x2(i - 2) = value;
@@ -57,30 +48,28 @@ std::vector<Correspondences> with_entry(const EverySolver& solver, const Scene& 
   return list;
 }
 
-std::vector<Correspondences> nan_entries(const EverySolver& s, SceneGenerator&, const Scene& c) {
+std::vector<Correspondences> nan_entries(const Solver& s, SceneGenerator&, const Scene& c) {
   return with_entry(s, c, std::nan(""));
 }
 
-std::vector<Correspondences> infinite_entries(const EverySolver& s, SceneGenerator&,
-                                              const Scene& c) {
+std::vector<Correspondences> infinite_entries(const Solver& s, SceneGenerator&, const Scene& c) {
   auto list = with_entry(s, c, kInf);
   for (auto& acs : with_entry(s, c, -kInf)) list.push_back(acs);
   return list;
 }
 
-std::vector<Correspondences> zeros(const EverySolver&, SceneGenerator&, const Scene& c) {
+std::vector<Correspondences> zeros(const Solver&, SceneGenerator&, const Scene& c) {
   const AffineCorrespondence zero{{0, 0}, {0, 0}, Eigen::Matrix2d::Zero()};
   return {Correspondences(c.acs.size(), zero)};
 }
 
 /// All points on the horizon, and at a distance from it that is rounding.
-std::vector<Correspondences> horizon(const EverySolver& solver, SceneGenerator& scene,
-                                     const Scene& c) {
+std::vector<Correspondences> horizon(const Solver& solver, SceneGenerator& scene, const Scene& c) {
   std::vector<Correspondences> list;
   for (const double y : {0.0, 1e-14}) {
     Correspondences acs;
     while (acs.size() < c.acs.size()) {
-      const Plane plane = solver.surface == Surface::kAny ? scene.any_plane() : c.plane;
+      const Plane plane = on_any_surface(solver) ? scene.any_plane() : c.plane;
       const auto H = plane_induced_homography(c.T, plane);
       const auto ac = correspondence_from_homography(H, {scene.image_point().x(), y});
       if (ac) acs.push_back(*ac);
@@ -91,10 +80,10 @@ std::vector<Correspondences> horizon(const EverySolver& solver, SceneGenerator& 
 }
 
 /// A turn of the kind that the solver's motion allows.
-std::vector<Correspondences> pure_rotation_of(const EverySolver& solver, SceneGenerator&,
+std::vector<Correspondences> pure_rotation_of(const Solver& solver, SceneGenerator&,
                                               const Scene& c) {
   const Eigen::Matrix3d R =
-      solver.motion == Motion::kCircular ? yaw_rotation(std::cos(0.2), std::sin(0.2)) : c.T.R;
+      solver.motion == SolverMotion::kCircular ? yaw_rotation(std::cos(0.2), std::sin(0.2)) : c.T.R;
   Correspondences acs;
   for (const AffineCorrespondence& ac : c.acs) {
     if (const auto seen = correspondence_from_homography(R, ac.x1)) acs.push_back(*seen);
@@ -102,26 +91,26 @@ std::vector<Correspondences> pure_rotation_of(const EverySolver& solver, SceneGe
   return {acs};
 }
 
-std::vector<Correspondences> no_motion(const EverySolver&, SceneGenerator&, const Scene& c) {
+std::vector<Correspondences> no_motion(const Solver&, SceneGenerator&, const Scene& c) {
   Correspondences acs = c.acs;
   for (AffineCorrespondence& ac : acs) ac = {ac.x1, ac.x1, Eigen::Matrix2d::Identity()};
   return {acs};
 }
 
-std::vector<Correspondences> coincident(const EverySolver&, SceneGenerator&, const Scene& c) {
+std::vector<Correspondences> coincident(const Solver&, SceneGenerator&, const Scene& c) {
   return {Correspondences(c.acs.size(), c.acs[0])};
 }
 
 /// All correspondences on one and the same plane.
-std::vector<Correspondences> coincident_planes(const EverySolver& solver, SceneGenerator& scene,
+std::vector<Correspondences> coincident_planes(const Solver& solver, SceneGenerator& scene,
                                                const Scene& c) {
-  EverySolver on_plane = solver;
-  if (solver.surface == Surface::kAny) on_plane.surface = Surface::kPlane;
+  Solver on_plane = solver;
+  if (on_any_surface(solver)) on_plane.surface = SolverSurface::kPlane;
   return {correspondences_of(on_plane, scene, c.T, scene.any_plane())};
 }
 
 /// The second view mirrored.
-std::vector<Correspondences> reflection(const EverySolver&, SceneGenerator&, const Scene& c) {
+std::vector<Correspondences> reflection(const Solver&, SceneGenerator&, const Scene& c) {
   Correspondences acs = c.acs;
   for (AffineCorrespondence& ac : acs) {
     ac.x2.x() = -ac.x2.x();
@@ -140,10 +129,10 @@ const std::vector<Degeneracy>& degeneracies() {
 }
 
 /// "empty" when it never returns anything, "–" when the case is not degenerate for the solver.
-std::string behaviour(const EverySolver& solver, const Degeneracy& degeneracy) {
-  if (solver.count == 1 && degeneracy.inputs == &coincident) return "–";
-  if (solver.surface != Surface::kAny && degeneracy.inputs == &coincident_planes) return "–";
-  if (solver.count == 1 && degeneracy.inputs == &coincident_planes) return "–";
+std::string behaviour(const Solver& solver, const Degeneracy& degeneracy) {
+  if (solver.sample == 1 && degeneracy.inputs == &coincident) return "–";
+  if (!on_any_surface(solver) && degeneracy.inputs == &coincident_planes) return "–";
+  if (solver.sample == 1 && degeneracy.inputs == &coincident_planes) return "–";
   SceneGenerator scene(77);
   int answered = 0, asked = 0;
   for (int i = 0; i < kScenes; ++i) {
@@ -151,12 +140,12 @@ std::string behaviour(const EverySolver& solver, const Degeneracy& degeneracy) {
     c.acs = correspondences_of(solver, scene, c.T, c.plane);
     for (const Correspondences& acs : degeneracy.inputs(solver, scene, c)) {
       if (acs.size() != c.acs.size()) continue;  // turned out of sight
-      const Answer answer = solver.solve(AcSpan(acs));
-      for (const RelativePose& pose : answer.poses) {
-        EXPECT_TRUE(pose.is_finite()) << solver.name << ", " << degeneracy.name << ", scene " << i;
+      for (const PlanePose& pose : solver.run.poses(AcSpan(acs))) {
+        EXPECT_TRUE(pose.motion.is_finite())
+            << solver.name << ", " << degeneracy.name << ", scene " << i;
       }
       ++asked;
-      answered += answer.solutions > 0 ? 1 : 0;
+      answered += solver.run.count(AcSpan(acs)) > 0 ? 1 : 0;
     }
   }
   EXPECT_GE(asked, kScenes / 2) << solver.name << ", " << degeneracy.name;
@@ -170,7 +159,7 @@ std::string table() {
     rule += "---|";
   }
   text += "\n" + rule + "\n";
-  for (const EverySolver& solver : every_solver()) {
+  for (const Solver& solver : solvers()) {
     text += "| `" + std::string(solver.name) + "` |";
     for (const Degeneracy& degeneracy : degeneracies()) {
       text += " " + behaviour(solver, degeneracy) + " |";
@@ -178,14 +167,6 @@ std::string table() {
     text += "\n";
   }
   return text;
-}
-
-TEST(DegenerateInputs, EverySolverOfTheRegistryIsInTheTable) {
-  ASSERT_EQ(every_solver().size(), kSolvers.size());
-  for (std::size_t i = 0; i < kSolvers.size(); ++i) {
-    EXPECT_EQ(every_solver()[i].name, kSolvers[i].name);
-    EXPECT_EQ(every_solver()[i].count, kSolvers[i].correspondences);
-  }
 }
 
 TEST(DegenerateInputs, TableOfTheDocumentationIsWhatTheSolversDo) {
@@ -201,7 +182,7 @@ TEST(DegenerateInputs, TableOfTheDocumentationIsWhatTheSolversDo) {
 }
 
 TEST(DegenerateInputs, WhatASolverCanSeeGivesNothing) {
-  for (const EverySolver& solver : every_solver()) {
+  for (const Solver& solver : solvers()) {
     for (const Degeneracy& degeneracy : degeneracies()) {
       const std::string name = degeneracy.name;
       const std::string found = behaviour(solver, degeneracy);
@@ -214,17 +195,17 @@ TEST(DegenerateInputs, WhatASolverCanSeeGivesNothing) {
 }
 
 TEST(DegenerateInputs, PointSolversTakePointsWithoutAnAffinity) {
-  for (const EverySolver& solver : every_solver()) {
-    if (is_affine(solver)) continue;
+  for (const Solver& solver : solvers()) {
+    if (solver.affine) continue;
     SceneGenerator scene(78);
     for (int i = 0; i < kScenes; ++i) {
       const RelativePose T = motion_of(solver, scene);
       Correspondences acs = correspondences_of(solver, scene, T, plane_of(solver, scene));
-      const std::size_t full = solver.solve(AcSpan(acs)).solutions;
+      const std::size_t full = solver.run.count(AcSpan(acs));
       for (AffineCorrespondence& ac : acs) ac = {ac.x1, ac.x2};
-      EXPECT_EQ(solver.solve(AcSpan(acs)).solutions, full) << solver.name << ", scene " << i;
+      EXPECT_EQ(solver.run.count(AcSpan(acs)), full) << solver.name << ", scene " << i;
       for (AffineCorrespondence& ac : acs) ac.A.setZero();
-      EXPECT_EQ(solver.solve(AcSpan(acs)).solutions, full) << solver.name << ", scene " << i;
+      EXPECT_EQ(solver.run.count(AcSpan(acs)), full) << solver.name << ", scene " << i;
     }
   }
 }

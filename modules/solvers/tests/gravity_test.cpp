@@ -2,6 +2,11 @@
 
 #include "point_solver_tools.h"
 
+#include "oneac/solvers/relpose_1ac_ground.h"
+#include "oneac/solvers/relpose_1ac_planar.h"
+#include "oneac/solvers/relpose_1ac_planar_pitch.h"
+#include "oneac/solvers/relpose_1ac_wall.h"
+#include "oneac/solvers/relpose_2pc_planar.h"
 #include "oneac/test_support/allocation_counter.h"
 
 #include <gtest/gtest.h>
@@ -50,19 +55,28 @@ TEST(Gravity, SolversRecoverTheMotionOfTiltedCameras) {
     const Tilted tilted(scene, upright);
     const Plane ground = scene.ground();
     const AffineCorrespondence on_ground = tilted.see(on_one_plane(scene, upright, ground, 1)[0]);
-    const auto found = relpose_1ac_ground(on_ground, tilted.down1, tilted.down2);
+    const auto found = solve_tilted(on_ground, tilted.down1, tilted.down2, relpose_1ac_ground);
     ASSERT_EQ(found.size(), 1u) << "scene " << i << " of seed 2";
     EXPECT_LT(pose_error(found[0].pose(), tilted.T), kExact) << "scene " << i << " of seed 2";
     EXPECT_LT((found[0].pose().t * ground.d - tilted.T.t).norm(), kExact);
     const AffineCorrespondence any = tilted.see(scattered(scene, upright, 1)[0]);
-    EXPECT_LT(nearest_pose(relpose_1ac_planar(any, tilted.down1, tilted.down2), tilted.T), kExact);
+    EXPECT_LT(
+        nearest_pose(solve_tilted(any, tilted.down1, tilted.down2, relpose_1ac_planar), tilted.T),
+        kExact);
     const std::vector<AffineCorrespondence> two{any, tilted.see(scattered(scene, upright, 1)[0])};
-    EXPECT_LT(nearest_pose(relpose_2pc_planar(two, tilted.down1, tilted.down2), tilted.T), kExact);
+    EXPECT_LT(nearest_pose(solve_tilted<2>(two, tilted.down1, tilted.down2, relpose_2pc_planar),
+                           tilted.T),
+              kExact);
     const Plane wall{Eigen::Vector3d(0.6, 0.0, 0.8), 8.0};
     const AffineCorrespondence on_wall = tilted.see(on_one_plane(scene, upright, wall, 1)[0]);
-    EXPECT_LT(nearest_pose(relpose_1ac_wall(on_wall, tilted.down1, tilted.down2), tilted.T),
-              kExact);
-    EXPECT_LT(nearest_pose(relpose_1ac_planar_pitch(any, tilted.down1, tilted.down2), tilted.T),
+    EXPECT_LT(
+        nearest_pose(solve_tilted(on_wall, tilted.down1, tilted.down2, relpose_1ac_wall), tilted.T),
+        kExact);
+    EXPECT_LT(nearest_pose(solve_tilted(any, tilted.down1, tilted.down2,
+                                        [](const AffineCorrespondence& c) {
+                                          return relpose_1ac_planar_pitch(c);
+                                        }),
+                           tilted.T),
               1e-4);
   }
 }
@@ -72,10 +86,11 @@ TEST(Gravity, UnusableDirectionsGiveNothing) {
   const RelativePose T = scene.planar_motion();
   const AffineCorrespondence ac = on_one_plane(scene, T, scene.ground(), 1)[0];
   const Eigen::Vector3d y = Eigen::Vector3d::UnitY();
-  EXPECT_EQ(relpose_1ac_ground(ac, y, y).size(), 1u);
-  EXPECT_TRUE(relpose_1ac_ground(ac, Eigen::Vector3d::Zero(), y).empty());
-  EXPECT_TRUE(relpose_1ac_ground(ac, y, -y).empty());
-  EXPECT_TRUE(relpose_1ac_ground(ac, y, Eigen::Vector3d::Constant(std::nan(""))).empty());
+  EXPECT_EQ(solve_tilted(ac, y, y, relpose_1ac_ground).size(), 1u);
+  EXPECT_TRUE(solve_tilted(ac, Eigen::Vector3d::Zero(), y, relpose_1ac_ground).empty());
+  EXPECT_TRUE(solve_tilted(ac, y, -y, relpose_1ac_ground).empty());
+  EXPECT_TRUE(
+      solve_tilted(ac, y, Eigen::Vector3d::Constant(std::nan("")), relpose_1ac_ground).empty());
 }
 
 TEST(Gravity, DoesNotAllocate) {
@@ -84,7 +99,7 @@ TEST(Gravity, DoesNotAllocate) {
   const AffineCorrespondence ac = on_one_plane(scene, T, scene.ground(), 1)[0];
   const Eigen::Vector3d down(0.05, 1.0, -0.02);
   const std::size_t before = allocation_count();
-  const auto found = relpose_1ac_ground(ac, down, down);
+  const auto found = solve_tilted(ac, down, down, relpose_1ac_ground);
   EXPECT_EQ(allocation_count(), before);
   EXPECT_EQ(found.size(), 1u);
 }

@@ -1,4 +1,4 @@
-#include "minimise_on_circle.h"
+#include "math/minimise_on_circle.h"
 
 #include "oneac/test_support/scenes.h"
 

@@ -1,4 +1,4 @@
-#include "polynomial.h"
+#include "math/polynomial.h"
 
 #include "oneac/test_support/scenes.h"
 

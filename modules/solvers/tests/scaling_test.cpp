@@ -1,7 +1,7 @@
 // What must not depend on the size of numbers: weights, coefficients, the angle of view.
-#include "least_squares_null_vector.h"
+#include "math/least_squares_null_vector.h"
+#include "math/polynomial.h"
 #include "point_solver_tools.h"
-#include "polynomial.h"
 
 #include "oneac/solvers/essential_8pc.h"
 #include "oneac/solvers/homography_2ac.h"

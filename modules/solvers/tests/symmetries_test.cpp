@@ -1,8 +1,9 @@
-// Every solver of the registry under the symmetries of the problem.
+// Every solver of the list under the symmetries of the problem.
 
-#include "every_solver.h"
+#include "point_solver_tools.h"
 
 #include "oneac/geometry/camera.h"
+#include "oneac/test_support/solver_scenes.h"
 
 #include <gtest/gtest.h>
 
@@ -18,7 +19,7 @@ constexpr int kScenes = 300;
 // 300 scenes is allowed to be worse than kExact.
 constexpr int kMisses = 1;
 
-class Symmetry : public testing::TestWithParam<EverySolver> {
+class Symmetry : public testing::TestWithParam<Solver> {
  protected:
   struct Scene {
     RelativePose T;
@@ -35,8 +36,8 @@ class Symmetry : public testing::TestWithParam<EverySolver> {
   [[nodiscard]] static double error(const std::vector<AffineCorrespondence>& acs,
                                     const RelativePose& truth) {
     double least = 10.0;
-    for (const RelativePose& pose : GetParam().solve(AcSpan(acs)).poses) {
-      least = std::min(least, pose_error(pose, truth));
+    for (const PlanePose& pose : GetParam().run.poses(AcSpan(acs))) {
+      least = std::min(least, pose_error(pose.motion, truth));
     }
     return least;
   }
@@ -45,9 +46,9 @@ class Symmetry : public testing::TestWithParam<EverySolver> {
 TEST_P(Symmetry, SwappedViewsGiveTheInverseMotion) {
   // Known walls must be parallel to an axis of the second camera, too; a car on a circle that
   // drives backwards is a car on a circle; the planar pitch belongs to the second view.
-  const bool known_wall =
-      GetParam().surface == Surface::kSide || GetParam().surface == Surface::kFront;
-  if (GetParam().motion == Motion::kPitched) {
+  const bool known_wall = GetParam().surface == SolverSurface::kSideWall ||
+                          GetParam().surface == SolverSurface::kFrontWall;
+  if (GetParam().motion == SolverMotion::kPitched) {
     SUCCEED() << "the model is not symmetric: only the second view pitches";
     return;
   }
@@ -78,15 +79,16 @@ TEST_P(Symmetry, ScaleOfTheSceneDoesNotMatter) {
   SceneGenerator scene(3);
   for (int i = 0; i < kScenes; ++i) {
     const Scene c = draw(scene);
-    if (GetParam().surface == Surface::kAny) continue;  // each point on a plane of its own
+    if (on_any_surface(GetParam())) continue;  // each point on a plane of its own
     const auto H =
         plane_induced_homography({c.T.R, 1000.0 * c.T.t}, {c.plane.n, 1000.0 * c.plane.d});
     std::vector<AffineCorrespondence> large;
     for (const auto& ac : c.acs) large.push_back(*correspondence_from_homography(H, ac.x1));
-    const Answer a = GetParam().solve(AcSpan(c.acs)), b = GetParam().solve(AcSpan(large));
-    ASSERT_EQ(a.poses.size(), b.poses.size()) << "scene " << i << " of seed 3";
-    for (std::size_t k = 0; k < a.poses.size(); ++k) {
-      EXPECT_LT((a.poses[k].t - b.poses[k].t).norm(), 1e-7) << "scene " << i << " of seed 3";
+    const PoseSet a = GetParam().run.poses(AcSpan(c.acs));
+    const PoseSet b = GetParam().run.poses(AcSpan(large));
+    ASSERT_EQ(a.size(), b.size()) << "scene " << i << " of seed 3";
+    for (std::size_t k = 0; k < a.size(); ++k) {
+      EXPECT_LT((a[k].motion.t - b[k].motion.t).norm(), 1e-7) << "scene " << i << " of seed 3";
     }
   }
 }
@@ -109,7 +111,7 @@ TEST_P(Symmetry, IntrinsicsOfTheCamerasDoNotMatter) {
   EXPECT_LE(missed, kMisses);
 }
 
-INSTANTIATE_TEST_SUITE_P(Solvers, Symmetry, testing::ValuesIn(every_solver()),
+INSTANTIATE_TEST_SUITE_P(Solvers, Symmetry, testing::ValuesIn(solvers()),
                          [](const auto& form) { return std::string(form.param.name); });
 
 }  // namespace

@@ -41,13 +41,12 @@ struct CrossingFinder {
 [[nodiscard]] std::string item(const ExperimentResult& result, StudyMethod theirs,
                                StudyMetric metric, const Comparison& comparison) {
   const StudyMethod ours = result.experiment->methods.front();
-  std::string text = std::string(result.experiment->title) + ", " +
-                     std::string(metric_name(metric)) + ": " + std::string(method_label(ours)) +
-                     " against " + std::string(method_label(theirs)) + ": lower mean at " +
-                     std::to_string(comparison.won) + " of " + std::to_string(comparison.points) +
-                     " points (median: " + std::to_string(comparison.won_by_median) +
-                     "), mean ratio " + significant(comparison.best_ratio, 2) + " … " +
-                     significant(comparison.worst_ratio, 2);
+  std::string text =
+      std::string(result.experiment->title) + ", " + std::string(metric_name(metric)) + ": " +
+      std::string(ours->label) + " against " + std::string(theirs->label) + ": lower mean at " +
+      std::to_string(comparison.won) + " of " + std::to_string(comparison.points) +
+      " points (median: " + std::to_string(comparison.won_by_median) + "), mean ratio " +
+      significant(comparison.best_ratio, 2) + " … " + significant(comparison.worst_ratio, 2);
   const StudySweep sweep = result.experiment->sweep;
   if (sweep != StudySweep::wall_angle && !comparison.won_all()) {
     text += "; mean " + where(comparison.lost_from, sweep) + ", median " +
@@ -63,7 +62,8 @@ void add_findings(const ExperimentResult* result, Claim& claim, Judge&& judge) {
   const StudyMethod ours = result->experiment->methods.front();
   const bool skip_first = result->experiment->sweep == StudySweep::noise;
   for (const StudyMetric metric : kPose) {
-    for (const StudyMethod theirs : {StudyMethod::pc4, StudyMethod::ac2}) {
+    for (const StudyMethod theirs :
+         {study_method("homography_4pc"), study_method("homography_2ac")}) {
       const Comparison comparison = compare(*result, ours, theirs, metric, skip_first);
       const bool good = judge(theirs, comparison);
       claim.finding += (good ? "- " : "- **not so:** ") + item(*result, theirs, metric, comparison);
@@ -83,7 +83,7 @@ void add_findings(const ExperimentResult* result, Claim& claim, Judge&& judge) {
 
 /// Won at the lowest noise against both, lost later on against 4PC.
 [[nodiscard]] bool crosses(StudyMethod theirs, const Comparison& comparison) {
-  return comparison.won_first && (theirs != StudyMethod::pc4 || comparison.lost_from);
+  return comparison.won_first && (theirs != study_method("homography_4pc") || comparison.lost_from);
 }
 
 [[nodiscard]] bool wins_to_one_degree(StudyMethod, const Comparison& comparison) {
@@ -105,8 +105,8 @@ void add_findings(const ExperimentResult* result, Claim& claim, Judge&& judge) {
   if (result == nullptr) return "";
   std::string text = "4PC wins";
   for (const StudyMetric metric : kPose) {
-    const Comparison comparison =
-        compare(*result, result->experiment->methods.front(), StudyMethod::pc4, metric, true);
+    const Comparison comparison = compare(*result, result->experiment->methods.front(),
+                                          study_method("homography_4pc"), metric, true);
     text += metric == StudyMetric::rotation ? " in rotation " : ", in translation ";
     if (!comparison.lost_from) {
       text += "nowhere up to 1 px (ratio " + decimals(comparison.last_ratio, 2) + " there)";
@@ -144,7 +144,8 @@ void add_findings(const ExperimentResult* result, Claim& claim, Judge&& judge) {
     const ExperimentResult* experiment = result.find(name);
     if (experiment == nullptr) continue;
     for (const StudyMetric metric : kPose) {
-      for (const StudyMethod theirs : {StudyMethod::pc4, StudyMethod::ac2}) {
+      for (const StudyMethod theirs :
+           {study_method("homography_4pc"), study_method("homography_2ac")}) {
         const StudyMethod ours = experiment->experiment->methods.front();
         const auto lost = compare(*experiment, ours, theirs, metric, false).lost_from;
         if (lost && (!least || *lost < *least)) least = lost;

@@ -18,74 +18,74 @@ using S = StudySweep;
 }
 
 [[nodiscard]] std::vector<Experiment> experiments_of_paper() {
-  const StudyMethod pc4 = StudyMethod::pc4, ac2 = StudyMethod::ac2;
+  const StudyMethod pc4 = study_method("homography_4pc"), ac2 = study_method("homography_2ac");
   return {
       {"forward_ground",
        "Forward motion, ground",
        M::forward,
        P::ground,
        S::noise,
-       {StudyMethod::ac1_ground, pc4, ac2}},
+       {study_method("relpose_1ac_ground"), pc4, ac2}},
       {"forward_front",
        "Forward motion, frontal wall",
        M::forward,
        P::front_wall,
        S::noise,
-       {StudyMethod::ac1_front_wall, pc4, ac2}},
+       {study_method("relpose_1ac_front_wall"), pc4, ac2}},
       {"forward_wall",
        "Forward motion, turned wall",
        M::forward,
        P::any_wall,
        S::wall_angle,
-       {StudyMethod::ac1_wall, pc4, ac2}},
+       {study_method("relpose_1ac_wall"), pc4, ac2}},
       {"sideways_wall",
        "Sideways motion, turned wall",
        M::sideways,
        P::any_wall,
        S::wall_angle,
-       {StudyMethod::ac1_wall, pc4, ac2}},
+       {study_method("relpose_1ac_wall"), pc4, ac2}},
       {"tilt_ground",
        "Forward motion, ground, tilted second camera",
        M::forward,
        P::ground,
        S::tilt,
-       {StudyMethod::ac1_ground, pc4, ac2}},
+       {study_method("relpose_1ac_ground"), pc4, ac2}},
       {"tilt_front",
        "Forward motion, frontal wall, tilted second camera",
        M::forward,
        P::front_wall,
        S::tilt,
-       {StudyMethod::ac1_front_wall, pc4, ac2}},
+       {study_method("relpose_1ac_front_wall"), pc4, ac2}},
   };
 }
 
 [[nodiscard]] std::vector<Experiment> experiments_of_supplement() {
-  const StudyMethod pc4 = StudyMethod::pc4, ac2 = StudyMethod::ac2;
+  const StudyMethod pc4 = study_method("homography_4pc"), ac2 = study_method("homography_2ac");
   return {
       {"sideways_ground",
        "Sideways motion, ground",
        M::sideways,
        P::ground,
        S::noise,
-       {StudyMethod::ac1_ground, pc4, ac2}},
+       {study_method("relpose_1ac_ground"), pc4, ac2}},
       {"sideways_side",
        "Sideways motion, side wall",
        M::sideways,
        P::side_wall,
        S::noise,
-       {StudyMethod::ac1_side_wall, pc4, ac2}},
+       {study_method("relpose_1ac_side_wall"), pc4, ac2}},
       {"rapid_ground",
        "Rapid against optimal, forward motion, ground",
        M::forward,
        P::ground,
        S::noise,
-       {StudyMethod::ac1_ground, StudyMethod::ac1_ground_rapid}},
+       {study_method("relpose_1ac_ground"), study_method("relpose_1ac_ground_rapid")}},
       {"rapid_front",
        "Rapid against optimal, forward motion, frontal wall",
        M::forward,
        P::front_wall,
        S::noise,
-       {StudyMethod::ac1_front_wall, StudyMethod::ac1_front_wall_rapid}},
+       {study_method("relpose_1ac_front_wall"), study_method("relpose_1ac_front_wall_rapid")}},
   };
 }
 

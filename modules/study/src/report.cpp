@@ -38,7 +38,7 @@ std::string csv_of(const ExperimentResult& result, const Figure& figure, std::si
   for (const PointResult& point : result.points) {
     for (const StudyMethodResult& method : point.methods) {
       const ErrorStatistics& errors = method.of(figure.metric);
-      csv += decimals(point.value, 1) + "," + std::string(method_label(method.method)) + "," +
+      csv += decimals(point.value, 1) + "," + std::string(method.method->label) + "," +
              std::to_string(trials) + "," + std::to_string(trials - method.solved) + "," +
              significant(errors.mean, kDigits) + "," + significant(errors.median, kDigits) + "," +
              significant(errors.p95, kDigits) + "\n";
@@ -54,7 +54,7 @@ std::string svg_of(const ExperimentResult& result, const Figure& figure, DataUse
   plot.x_label = std::string(sweep_label(result.experiment->sweep));
   plot.y_label = y_label(figure.metric);
   for (const StudyMethod method : result.experiment->methods) {
-    plot.curves.push_back({std::string(method_label(method)), {}});
+    plot.curves.push_back({std::string(method->label), {}});
   }
   for (const PointResult& point : result.points) {
     plot.x.push_back(point.value);

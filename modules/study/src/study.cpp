@@ -112,8 +112,8 @@ std::size_t ExperimentResult::index_of(StudyMethod method) const {
   const std::vector<StudyMethod>& methods = experiment->methods;
   const auto found = std::find(methods.begin(), methods.end(), method);
   if (found == methods.end()) {
-    throw std::invalid_argument("method: " + std::string(method_label(method)) +
-                                " takes no part in " + std::string(experiment->name));
+    throw std::invalid_argument("method: " + std::string(method->label) + " takes no part in " +
+                                std::string(experiment->name));
   }
   return static_cast<std::size_t>(found - methods.begin());
 }

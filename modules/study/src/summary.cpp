@@ -108,7 +108,7 @@ constexpr double kManyFailures = 0.001;
   }
   text += "\n" + rule + "\n";
   for (std::size_t m = 0; m < experiment.methods.size(); ++m) {
-    text += "| " + std::string(method_label(experiment.methods[m])) + " |";
+    text += "| " + std::string(experiment.methods[m]->label) + " |";
     for (std::size_t i = 0; i < result.points.size(); i += every) {
       const ErrorStatistics& errors = result.points[i].methods[m].of(metric);
       text += " " + decimals(errors.mean, 2) + " (" + decimals(errors.median, 2) + ") |";
@@ -128,8 +128,8 @@ constexpr double kManyFailures = 0.001;
     const double share = 1.0 - static_cast<double>(solved) / static_cast<double>(trials);
     if (share < kManyFailures) continue;
     text += (text.empty() ? "Without a result, at the worst point: " : ", ") +
-            std::string(method_label(result.experiment->methods[m])) + " " +
-            decimals(100.0 * share, 1) + " %";
+            std::string(result.experiment->methods[m]->label) + " " + decimals(100.0 * share, 1) +
+            " %";
   }
   return text.empty() ? "" : text + ".\n\n";
 }

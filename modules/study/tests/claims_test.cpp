@@ -33,7 +33,7 @@ ExperimentResult made_up(const std::vector<double>& ours, const std::vector<doub
     PointResult point;
     point.value = 0.1 * static_cast<double>(i);
     for (const StudyMethod method : result.experiment->methods) {
-      const double error = method == StudyMethod::ac1_ground ? ours[i] : theirs[i];
+      const double error = method == study_method("relpose_1ac_ground") ? ours[i] : theirs[i];
       StudyMethodResult of_method{method, 1, {}};
       of_method.errors[0] = {error, error, error};
       point.methods.push_back(of_method);
@@ -45,8 +45,8 @@ ExperimentResult made_up(const std::vector<double>& ours, const std::vector<doub
 
 TEST(Compare, InterpolatesWhereTheLeadIsLost) {
   const auto result = made_up({0.0, 1.0, 2.0, 4.0}, {0.0, 2.0, 3.0, 3.0});
-  const Comparison c =
-      compare(result, StudyMethod::ac1_ground, StudyMethod::pc4, StudyMetric::rotation, true);
+  const Comparison c = compare(result, study_method("relpose_1ac_ground"),
+                               study_method("homography_4pc"), StudyMetric::rotation, true);
   EXPECT_EQ(c.points, 3U);
   EXPECT_EQ(c.won, 2U);
   EXPECT_TRUE(c.won_first);
@@ -61,21 +61,22 @@ TEST(Compare, InterpolatesWhereTheLeadIsLost) {
 
 TEST(Compare, ADrawIsNoWinAndALeadMayLastOrNeverCome) {
   const auto draw = made_up({1.0, 1.0}, {1.0, 1.0});
-  EXPECT_EQ(
-      compare(draw, StudyMethod::ac1_ground, StudyMethod::ac2, StudyMetric::rotation, false).won,
-      0U);
+  EXPECT_EQ(compare(draw, study_method("relpose_1ac_ground"), study_method("homography_2ac"),
+                    StudyMetric::rotation, false)
+                .won,
+            0U);
   const auto lead = made_up({1.0, 1.0}, {2.0, 2.0});
-  EXPECT_FALSE(
-      compare(lead, StudyMethod::ac1_ground, StudyMethod::ac2, StudyMetric::rotation, false)
-          .lost_from);
+  EXPECT_FALSE(compare(lead, study_method("relpose_1ac_ground"), study_method("homography_2ac"),
+                       StudyMetric::rotation, false)
+                   .lost_from);
   const auto never = made_up({0.0, 3.0, 3.0}, {0.0, 2.0, 2.0});
-  EXPECT_NEAR(
-      *compare(never, StudyMethod::ac1_ground, StudyMethod::ac2, StudyMetric::rotation, true)
-           .lost_from,
-      0.1, 1e-12);
-  EXPECT_THROW(
-      (void)compare(lead, StudyMethod::ac1_wall, StudyMethod::ac2, StudyMetric::rotation, false),
-      std::invalid_argument);
+  EXPECT_NEAR(*compare(never, study_method("relpose_1ac_ground"), study_method("homography_2ac"),
+                       StudyMetric::rotation, true)
+                   .lost_from,
+              0.1, 1e-12);
+  EXPECT_THROW((void)compare(lead, study_method("relpose_1ac_wall"), study_method("homography_2ac"),
+                             StudyMetric::rotation, false),
+               std::invalid_argument);
 }
 
 TEST(Claims, OnTheGroundOneAcBeatsFourPointsAndTwoAcsAtEveryNoiseLevel) {
@@ -87,8 +88,9 @@ TEST(Claims, OnTheGroundOneAcBeatsFourPointsAndTwoAcsAtEveryNoiseLevel) {
 TEST(Claims, OnAFrontalWallFourPointsCatchUpAtHighNoise) {
   const StudyResult result = study_of({"c", "d"}, 500);
   for (const StudyMetric metric : {StudyMetric::rotation, StudyMetric::translation}) {
-    const Comparison c = compare(*result.find("forward_front"), StudyMethod::ac1_front_wall,
-                                 StudyMethod::pc4, metric, true);
+    const Comparison c =
+        compare(*result.find("forward_front"), study_method("relpose_1ac_front_wall"),
+                study_method("homography_4pc"), metric, true);
     EXPECT_TRUE(c.won_first);
     EXPECT_LT(c.best_ratio, 0.35);
     EXPECT_GT(c.last_ratio, 0.85);
@@ -101,8 +103,9 @@ TEST(Claims, OnAFrontalWallFourPointsOvertakeWhenErrorsAreOfExactlyTheLevel) {
   const Claim claim = claim_of(result, "special_wall");
   EXPECT_TRUE(claim.holds()) << claim.finding;
   for (const StudyMetric metric : {StudyMetric::rotation, StudyMetric::translation}) {
-    const Comparison c = compare(*result.find("forward_front"), StudyMethod::ac1_front_wall,
-                                 StudyMethod::pc4, metric, true);
+    const Comparison c =
+        compare(*result.find("forward_front"), study_method("relpose_1ac_front_wall"),
+                study_method("homography_4pc"), metric, true);
     ASSERT_TRUE(c.lost_from);
     EXPECT_NEAR(*c.lost_from, 0.42, 0.1);
   }
@@ -118,20 +121,21 @@ TEST(Claims, TiltIsLostWhereItEqualsTheRivalsError) {
   // The disagreement with the paper: 2AC on all four correspondences is far better than the tilt.
   const StudyResult all = study_of({"i1"}, 500);
   const auto& ground = *all.find("tilt_ground");
-  const Comparison c =
-      compare(ground, StudyMethod::ac1_ground, StudyMethod::ac2, StudyMetric::rotation, false);
+  const Comparison c = compare(ground, study_method("relpose_1ac_ground"),
+                               study_method("homography_2ac"), StudyMetric::rotation, false);
   ASSERT_TRUE(c.lost_from);
   EXPECT_NEAR(*c.lost_from, 0.22, 0.06);
-  EXPECT_TRUE(
-      compare(ground, StudyMethod::ac1_ground, StudyMethod::pc4, StudyMetric::rotation, false)
-          .won_all());
+  EXPECT_TRUE(compare(ground, study_method("relpose_1ac_ground"), study_method("homography_4pc"),
+                      StudyMetric::rotation, false)
+                  .won_all());
   EXPECT_FALSE(claim_of(all, "tilt").holds());
 }
 
 TEST(Claims, TiltOnAFrontalWallIsWonInTranslation) {
   const StudyResult result = study_of({"i3", "i4"}, 500);
-  for (const StudyMethod theirs : {StudyMethod::pc4, StudyMethod::ac2}) {
-    EXPECT_TRUE(compare(*result.find("tilt_front"), StudyMethod::ac1_front_wall, theirs,
+  for (const StudyMethod theirs :
+       {study_method("homography_4pc"), study_method("homography_2ac")}) {
+    EXPECT_TRUE(compare(*result.find("tilt_front"), study_method("relpose_1ac_front_wall"), theirs,
                         StudyMetric::translation, false)
                     .won_all());
   }
@@ -139,8 +143,9 @@ TEST(Claims, TiltOnAFrontalWallIsWonInTranslation) {
 
 TEST(Claims, OneCorrespondenceAgainstFourPointsDoesNotReproduceThePaper) {
   const StudyResult result = study_of({"c", "d"}, 300, NoiseShape::uniform, DataUse::minimal);
-  const Comparison c = compare(*result.find("forward_front"), StudyMethod::ac1_front_wall,
-                               StudyMethod::pc4, StudyMetric::rotation, true);
+  const Comparison c =
+      compare(*result.find("forward_front"), study_method("relpose_1ac_front_wall"),
+              study_method("homography_4pc"), StudyMetric::rotation, true);
   EXPECT_EQ(c.won, 0U);
   EXPECT_FALSE(claim_of(result, "special_wall").holds());
 }

@@ -25,10 +25,10 @@ TEST(Trial, ZeroNoiseGivesZeroErrorForEveryMethodOfEveryExperiment) {
         for (const StudyMethod method : experiment.methods) {
           const AcSpan span(acs.data(), acs.size());
           const auto errors = errors_of(method, DataUse::all, span, scene);
-          ASSERT_TRUE(errors) << experiment.name << " " << value << " " << method_label(method);
-          EXPECT_LT(errors->rotation, kRounding_rad) << experiment.name << method_label(method);
+          ASSERT_TRUE(errors) << experiment.name << " " << value << " " << method->label;
+          EXPECT_LT(errors->rotation, kRounding_rad) << experiment.name << method->label;
           EXPECT_LT(errors->translation, 100 * kRounding_rad)
-              << experiment.name << " " << value << " " << method_label(method) << seed;
+              << experiment.name << " " << value << " " << method->label << seed;
         }
       }
     }
@@ -102,17 +102,18 @@ TEST(Trial, MethodsUseAsManyCorrespondencesAsTheirNamesSay) {
     changed[broken].x2 += Eigen::Vector2d(0.01, 0.02);
     return errors_of(method, use, AcSpan(changed.data(), 4), scene)->translation;
   };
-  EXPECT_NE(error(StudyMethod::ac1_ground, DataUse::minimal, 0),
-            error(StudyMethod::ac1_ground, DataUse::minimal, 1));
-  EXPECT_EQ(error(StudyMethod::ac1_ground, DataUse::minimal, 1),
-            error(StudyMethod::ac1_ground, DataUse::minimal, 3));
-  EXPECT_EQ(error(StudyMethod::ac2, DataUse::minimal, 2),
-            error(StudyMethod::ac2, DataUse::minimal, 3));
-  EXPECT_NE(error(StudyMethod::ac2, DataUse::minimal, 1),
-            error(StudyMethod::ac2, DataUse::minimal, 3));
-  EXPECT_NE(error(StudyMethod::ac1_ground, DataUse::all, 2),
-            error(StudyMethod::ac1_ground, DataUse::all, 3));
-  EXPECT_NE(error(StudyMethod::ac2, DataUse::all, 2), error(StudyMethod::ac2, DataUse::all, 3));
+  EXPECT_NE(error(study_method("relpose_1ac_ground"), DataUse::minimal, 0),
+            error(study_method("relpose_1ac_ground"), DataUse::minimal, 1));
+  EXPECT_EQ(error(study_method("relpose_1ac_ground"), DataUse::minimal, 1),
+            error(study_method("relpose_1ac_ground"), DataUse::minimal, 3));
+  EXPECT_EQ(error(study_method("homography_2ac"), DataUse::minimal, 2),
+            error(study_method("homography_2ac"), DataUse::minimal, 3));
+  EXPECT_NE(error(study_method("homography_2ac"), DataUse::minimal, 1),
+            error(study_method("homography_2ac"), DataUse::minimal, 3));
+  EXPECT_NE(error(study_method("relpose_1ac_ground"), DataUse::all, 2),
+            error(study_method("relpose_1ac_ground"), DataUse::all, 3));
+  EXPECT_NE(error(study_method("homography_2ac"), DataUse::all, 2),
+            error(study_method("homography_2ac"), DataUse::all, 3));
 }
 
 TEST(Trial, EveryMethodIsGivenItsCandidateClosestToTheTruth) {
@@ -122,7 +123,9 @@ TEST(Trial, EveryMethodIsGivenItsCandidateClosestToTheTruth) {
     TrialRandom random(seed);
     const auto acs = draw_correspondences(scene, NoiseShape::uniform, random);
     const AcSpan span(acs.data(), acs.size());
-    for (const StudyMethod method : {StudyMethod::ac1_wall, StudyMethod::pc4, StudyMethod::ac2}) {
+    for (const StudyMethod method :
+         {study_method("relpose_1ac_wall"), study_method("homography_4pc"),
+          study_method("homography_2ac")}) {
       const auto candidates = candidates_of(method, span, DataUse::all);
       two += candidates.size() == 2 ? 1 : 0;
       const auto errors = errors_of(method, DataUse::all, span, scene);

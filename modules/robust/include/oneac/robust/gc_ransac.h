@@ -1,6 +1,5 @@
 #pragma once
 
-#include "oneac/robust/minimal_models.h"
 #include "oneac/robust/robust_result.h"
 #include "oneac/solvers/span.h"
 
@@ -8,6 +7,8 @@
 #include <string>
 
 namespace oneac {
+
+struct Solver;
 
 /// Graph-cut RANSAC. validate() throws std::invalid_argument naming field, value and bound.
 /// Defaults without a word of their own: docs/decisions/gc-ransac.md.
@@ -53,7 +54,7 @@ void describe(Visitor&& visit, GcRansacOptions& o) {
 /// @return             kOk or kTooFew (identity); standing cameras and planes are not looked for
 /// @throws std::invalid_argument for options or a focal length out of bounds
 [[nodiscard]] RobustResult gc_ransac(AcSpan acs, const Eigen::Matrix3d& R_level_cam,
-                                     double focal_px, MinimalMethod method, std::uint64_t seed,
+                                     double focal_px, const Solver& solver, std::uint64_t seed,
                                      const GcRansacOptions& options);
 
 }  // namespace oneac

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "oneac/robust/robust_result.h"
+#include "oneac/robust/solver_pool.h"
 #include "oneac/solvers/span.h"
 
 #include <cstddef>
@@ -11,11 +12,7 @@ namespace oneac {
 
 /// Exhaustive one-AC consensus. validate() throws std::invalid_argument naming field, value, bound.
 struct ConsensusOptions {
-  bool ground = true;         ///< hypotheses of the ground solver
-  bool planar = true;         ///< hypotheses of the plane-free planar solver
-  bool side_wall = false;     ///< hypotheses of the solver for walls along the road
-  bool front_wall = false;    ///< hypotheses of the solver for walls across the road
-  bool wall = false;          ///< hypotheses of the solver for any wall
+  SolverPool pool;            ///< whose hypotheses; a key per solver, such as "ground"
   double threshold_px = 1.0;  ///< [px] Sampson inlier bound; DoG points repeat to 0.3…0.5 px (1σ)
   int first_modes = 8;        ///< polished in a first look without pitch sweep; 0: none. Its answer
                               ///< stands when it explains the points
@@ -44,11 +41,9 @@ struct ConsensusOptions {
 
 template <class Visitor>
 void describe(Visitor&& visit, ConsensusOptions& o) {
-  visit("ground", o.ground, "bool", "hypotheses of the ground solver");
-  visit("planar", o.planar, "bool", "hypotheses of the plane-free planar solver");
-  visit("side_wall", o.side_wall, "bool", "hypotheses of the solver for walls along the road");
-  visit("front_wall", o.front_wall, "bool", "hypotheses of the solver for walls across the road");
-  visit("wall", o.wall, "bool", "hypotheses of the solver for any wall");
+  for (std::size_t i = 0; i < SolverPool::size(); ++i) {
+    visit(SolverPool::key(i), o.pool.on[i], "bool", SolverPool::meaning(i).c_str());
+  }
   visit("threshold_px", o.threshold_px, "px", "Sampson inlier bound");
   visit("first_modes", o.first_modes, "count", "polished in a first look without sweep; 0: none");
   visit("first_problems", o.first_problems, "count", "solved per solver in the first look");

@@ -1,5 +1,7 @@
 #pragma once
 
+#include "oneac/base/simd.h"
+
 #include <cstddef>
 #include <cstdint>
 
@@ -29,15 +31,6 @@ struct PlanarPoseArrays {
   double* tz = nullptr;
   std::uint8_t* valid = nullptr;
 };
-
-/// Instruction sets that the batch forms are compiled for: 2, 4 and 8 correspondences at a time.
-enum class SimdLevel { kBaseline, kAvx2, kAvx512 };
-
-/// Whether this processor (and this build) can run the level. The baseline always runs.
-[[nodiscard]] bool is_supported(SimdLevel level);
-
-/// The widest level that is supported.
-[[nodiscard]] SimdLevel best_simd_level();
 
 /// relpose_1ac_ground of every correspondence, several at a time.
 ///

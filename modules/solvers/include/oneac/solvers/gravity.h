@@ -1,16 +1,9 @@
 #pragma once
 
 #include "oneac/geometry/homography.h"
-#include "oneac/solvers/relpose_1ac_front_wall.h"
-#include "oneac/solvers/relpose_1ac_ground.h"
-#include "oneac/solvers/relpose_1ac_planar.h"
-#include "oneac/solvers/relpose_1ac_planar_pitch.h"
-#include "oneac/solvers/relpose_1ac_side_wall.h"
-#include "oneac/solvers/relpose_1ac_wall.h"
-#include "oneac/solvers/relpose_1pc_ackermann.h"
-#include "oneac/solvers/relpose_2pc_ground.h"
-#include "oneac/solvers/relpose_2pc_planar.h"
-#include "oneac/solvers/relpose_3pc_vertical.h"
+#include "oneac/geometry/relative_pose.h"
+#include "oneac/solvers/solution_set.h"
+#include "oneac/solvers/span.h"
 
 #include <Eigen/Geometry>
 
@@ -18,13 +11,7 @@
 #include <cstddef>
 #include <optional>
 
-/// Overloads of the planar solvers for tilted cameras whose vertical direction is known.
-///
-/// Each takes the direction of gravity in the two camera frames (`down1`, `down2`; any length, (0,
-/// 1, 0) for an upright camera), turns the correspondences upright, solves, and turns the pose
-/// back. Empty also when a direction has no length or points straight up, or when a point leaves
-/// the half-space before its turned camera. Over-determined forms: turn the correspondences once
-/// with rotate_views and call the plain functions.
+/// Planar solvers for tilted cameras whose vertical direction is known.
 namespace oneac {
 
 /// A solution of the upright cameras and the motion of the tilted ones; units as the solution's.
@@ -60,91 +47,37 @@ template <class Solution, std::size_t N>
   return tilted;
 }
 
-/// Turns the first `Count` correspondences upright and solves them.
-template <std::size_t Count, class Solve>
-[[nodiscard]] auto solve_upright(AcSpan acs, const Eigen::Vector3d& down1,
-                                 const Eigen::Vector3d& down2, Solve&& solve)
-    -> decltype(tilt_back(solve(AcSpan()), Eigen::Matrix3d(), Eigen::Matrix3d())) {
+}  // namespace internal
+
+/// Runs a planar solver for tilted cameras: turns the first `kSample` correspondences upright,
+/// solves, and turns the poses back. Over-determined forms: turn the correspondences once with
+/// rotate_views and call the solver itself.
+/// @param down1, down2  gravity in the two camera frames; any length, (0, 1, 0) for an upright one
+/// @param solve         from kSample correspondences (AcSpan) to a SolutionSet of planar poses
+/// @return              empty also when a direction has no length or points straight up, or when a
+///                      point leaves the half-space before its turned camera
+template <std::size_t kSample, class Solve>
+[[nodiscard]] auto solve_tilted(AcSpan acs, const Eigen::Vector3d& down1,
+                                const Eigen::Vector3d& down2, Solve&& solve)
+    -> decltype(internal::tilt_back(solve(AcSpan()), Eigen::Matrix3d(), Eigen::Matrix3d())) {
   const auto Q1 = upright_rotation(down1);
   const auto Q2 = upright_rotation(down2);
-  if (!Q1 || !Q2 || acs.size() < Count) return {};
-  std::array<AffineCorrespondence, Count> upright;
-  for (std::size_t i = 0; i < Count; ++i) {
+  if (!Q1 || !Q2 || acs.size() < kSample) return {};
+  std::array<AffineCorrespondence, kSample> upright;
+  for (std::size_t i = 0; i < kSample; ++i) {
     const auto turned = rotate_views(acs[i], *Q1, *Q2);
     if (!turned) return {};
     upright[i] = *turned;
   }
-  return tilt_back(solve(AcSpan(upright.data(), Count)), *Q1, *Q2);
+  return internal::tilt_back(solve(AcSpan(upright.data(), kSample)), *Q1, *Q2);
 }
 
-}  // namespace internal
-
-[[nodiscard]] inline SolutionSet<TiltedPose<PlanarPose>, 1> relpose_1ac_ground(
-    const AffineCorrespondence& ac, const Eigen::Vector3d& down1, const Eigen::Vector3d& down2) {
-  return internal::solve_upright<1>(AcSpan(&ac, 1), down1, down2,
-                                    [](AcSpan s) { return relpose_nac_ground(s); });
-}
-
-[[nodiscard]] inline SolutionSet<TiltedPose<PlanarPose>, 1> relpose_1ac_ground_rapid(
-    const AffineCorrespondence& ac, const Eigen::Vector3d& down1, const Eigen::Vector3d& down2) {
-  return internal::solve_upright<1>(AcSpan(&ac, 1), down1, down2,
-                                    [](AcSpan s) { return relpose_nac_ground_rapid(s); });
-}
-
-[[nodiscard]] inline SolutionSet<TiltedPose<WallPose>, 1> relpose_1ac_side_wall(
-    const AffineCorrespondence& ac, const Eigen::Vector3d& down1, const Eigen::Vector3d& down2) {
-  return internal::solve_upright<1>(AcSpan(&ac, 1), down1, down2,
-                                    [](AcSpan s) { return relpose_nac_side_wall(s); });
-}
-
-[[nodiscard]] inline SolutionSet<TiltedPose<WallPose>, 1> relpose_1ac_front_wall(
-    const AffineCorrespondence& ac, const Eigen::Vector3d& down1, const Eigen::Vector3d& down2) {
-  return internal::solve_upright<1>(AcSpan(&ac, 1), down1, down2,
-                                    [](AcSpan s) { return relpose_nac_front_wall(s); });
-}
-
-[[nodiscard]] inline SolutionSet<TiltedPose<WallPose>, 2> relpose_1ac_wall(
-    const AffineCorrespondence& ac, const Eigen::Vector3d& down1, const Eigen::Vector3d& down2) {
-  return internal::solve_upright<1>(AcSpan(&ac, 1), down1, down2,
-                                    [](AcSpan s) { return relpose_1ac_wall(s[0]); });
-}
-
-[[nodiscard]] inline SolutionSet<TiltedPose<PlanarPose>, 1> relpose_1ac_planar(
-    const AffineCorrespondence& ac, const Eigen::Vector3d& down1, const Eigen::Vector3d& down2) {
-  return internal::solve_upright<1>(AcSpan(&ac, 1), down1, down2,
-                                    [](AcSpan s) { return relpose_1ac_planar(s[0]); });
-}
-
-[[nodiscard]] inline SolutionSet<TiltedPose<PitchedPose>, 6> relpose_1ac_planar_pitch(
-    const AffineCorrespondence& ac, const Eigen::Vector3d& down1, const Eigen::Vector3d& down2,
-    double max_pitch = kAnyPitch) {
-  return internal::solve_upright<1>(AcSpan(&ac, 1), down1, down2, [max_pitch](AcSpan s) {
-    return s.empty() ? SolutionSet<PitchedPose, 6>() : relpose_1ac_planar_pitch(s[0], max_pitch);
-  });
-}
-
-[[nodiscard]] inline SolutionSet<TiltedPose<PlanarPose>, 1> relpose_1pc_ackermann(
-    AcSpan points, const Eigen::Vector3d& down1, const Eigen::Vector3d& down2) {
-  return internal::solve_upright<1>(points, down1, down2,
-                                    [](AcSpan s) { return relpose_1pc_ackermann(s); });
-}
-
-[[nodiscard]] inline SolutionSet<TiltedPose<PlanarPose>, 1> relpose_2pc_ground(
-    AcSpan points, const Eigen::Vector3d& down1, const Eigen::Vector3d& down2) {
-  return internal::solve_upright<2>(points, down1, down2,
-                                    [](AcSpan s) { return relpose_2pc_ground(s); });
-}
-
-[[nodiscard]] inline SolutionSet<TiltedPose<PlanarPose>, 2> relpose_2pc_planar(
-    AcSpan points, const Eigen::Vector3d& down1, const Eigen::Vector3d& down2) {
-  return internal::solve_upright<2>(points, down1, down2,
-                                    [](AcSpan s) { return relpose_2pc_planar(s); });
-}
-
-[[nodiscard]] inline SolutionSet<TiltedPose<WallPose>, 2> relpose_3pc_vertical(
-    AcSpan points, const Eigen::Vector3d& down1, const Eigen::Vector3d& down2) {
-  return internal::solve_upright<3>(points, down1, down2,
-                                    [](AcSpan s) { return relpose_3pc_vertical(s); });
+/// The same of one correspondence; `solve` takes the correspondence itself.
+template <class Solve>
+[[nodiscard]] auto solve_tilted(const AffineCorrespondence& ac, const Eigen::Vector3d& down1,
+                                const Eigen::Vector3d& down2, Solve&& solve)
+    -> decltype(internal::tilt_back(solve(ac), Eigen::Matrix3d(), Eigen::Matrix3d())) {
+  return solve_tilted<1>(AcSpan(&ac, 1), down1, down2, [&solve](AcSpan s) { return solve(s[0]); });
 }
 
 }  // namespace oneac

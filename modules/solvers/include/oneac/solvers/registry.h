@@ -1,61 +1,81 @@
 #pragma once
 
-#include <array>
+#include "oneac/solvers/batch.h"
+#include "oneac/solvers/homography_decomposition.h"
+#include "oneac/solvers/planar_pose.h"
+#include "oneac/solvers/solution_set.h"
+#include "oneac/solvers/span.h"
+
+#include <Eigen/Core>
+
+#include <cstddef>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace oneac {
 
-/// What a table says about a solver.
-struct SolverInfo {
-  std::string_view name;         ///< of the function, header, test and page docs/solvers/<name>.md
-  int correspondences;           ///< of the minimal form
-  bool affine;                   ///< affine correspondences, else points
-  std::string_view assumptions;  ///< about motion and scene
-  std::string_view unknowns;     ///< what it solves for
-  int max_candidates;            ///< capacity of its solution set
-  bool metric;                   ///< length known as soon as the camera height is
-  std::string_view unit;         ///< of the translation
-  int typical_ns;                ///< as docs/solvers/README.md says it was measured [ns]
+/// Motions that solvers assume. All but kAny want levelled cameras: Y along gravity in both views
+/// (kPitched: in the first one).
+enum class SolverMotion { kPlanar, kPitched, kCircular, kAny };
+
+/// What the correspondences of a sample lie on; kAny and kNoPlane: each on a plane of its own.
+enum class SolverSurface { kGround, kSideWall, kFrontWall, kWall, kPlane, kAny, kNoPlane };
+
+/// Whether a solver makes hypotheses of the one-AC consensus unless the options say otherwise.
+enum class PoolUse { kNever, kOff, kOn };
+
+/// At most ten: the five-point solver's.
+using EssentialSet = SolutionSet<Eigen::Matrix3d, 10>;
+using PoseSet = SolutionSet<PlanePose, 10>;
+using PlanarPoseSet = SolutionSet<PlanarPose, 2>;
+using BatchSolver = std::size_t (*)(const AcArrays&, const PlanarPoseArrays&, SimdLevel);
+
+/// A solver's functions in the forms that its callers walk. No form allocates.
+struct SolverFunctions {
+  int max_candidates;                         ///< capacity of its solution set
+  std::size_t (*count)(AcSpan sample);        ///< the bare solver: how many solutions
+  EssentialSet (*essentials)(AcSpan sample);  ///< |E| = √2; homographies: of the poses below
+  /// Poses in the row's unit. Of matrices those motions that have most of the sample before both
+  /// cameras. `n` is the plane's normal, and means nothing where the solver knows no plane.
+  PoseSet (*poses)(AcSpan sample);
+  PoseSet (*least_squares)(AcSpan acs);  ///< `poses` of any number ≥ sample; null: no such form
+  PlanarPoseSet (*planar)(const AffineCorrespondence& ac);  ///< null: no planar motion from one
 };
 
+/// One row of the list of solvers: all that a caller has to know. Whatever offers, compares, runs
+/// or describes solvers walks this list.
+struct Solver {
+  std::string_view name;      ///< of the function, header and page docs/solvers/<name>.md
+  std::string_view label;     ///< in figures and their files; the paper's where it has one
+  std::string_view method;    ///< short name of its initialiser; empty: none
+  std::size_t sample;         ///< correspondences of the minimal form, at most kLargestSample
+  bool affine;                ///< affine correspondences, else points
+  SolverMotion motion;        ///< assumed
+  SolverSurface surface;      ///< assumed
+  std::string_view unknowns;  ///< what it solves for
+  std::string_view unit;      ///< of the translation
+  int typical_ns;             ///< [ns] as docs/solvers/README.md says it was measured
+  SolverFunctions run;        ///< made by functions<…>() of registry.cpp
+  PoolUse pool = PoolUse::kNever;
+  BatchSolver batch = nullptr;  ///< several at a time, for the pool; null: one by one
+
+  [[nodiscard]] bool levelled() const { return motion != SolverMotion::kAny; }
+  /// Length known as soon as the camera height is.
+  [[nodiscard]] bool metric() const { return surface == SolverSurface::kGround; }
+  /// About motion and scene, e.g. "planar motion, ground".
+  [[nodiscard]] std::string assumptions() const;
+  /// Among the parameters of the consensus, e.g. "side_wall"; ends in a null character.
+  [[nodiscard]] const char* pool_key() const;
+};
+
+constexpr std::size_t kLargestSample = 8;
+
 /// Every solver of the module, in the order of the documentation.
-inline constexpr std::array<SolverInfo, 18> kSolvers{{
-    {"relpose_1ac_ground", 1, true, "planar motion, ground", "yaw, t", 1, true, "camera height",
-     62},
-    {"relpose_1ac_ground_rapid", 1, true, "planar motion, ground", "yaw, t", 1, true,
-     "camera height", 82},
-    {"relpose_1ac_side_wall", 1, true, "planar motion, wall along the road", "yaw, t", 1, false,
-     "wall distance", 53},
-    {"relpose_1ac_side_wall_rapid", 1, true, "planar motion, wall along the road", "yaw, t", 1,
-     false, "wall distance", 78},
-    {"relpose_1ac_front_wall", 1, true, "planar motion, wall across the road", "yaw, t", 1, false,
-     "wall distance", 49},
-    {"relpose_1ac_front_wall_rapid", 1, true, "planar motion, wall across the road", "yaw, t", 1,
-     false, "wall distance", 77},
-    {"relpose_1ac_wall", 1, true, "planar motion, any wall", "yaw, t, normal", 2, false,
-     "wall distance", 85},
-    {"relpose_1ac_wall_candidates", 1, true, "planar motion, any wall", "yaw, ±t, ±normal", 4,
-     false, "wall distance", 90},
-    {"relpose_1ac_planar", 1, true, "planar motion, any scene", "yaw, direction", 1, false, "1",
-     67},
-    {"relpose_1ac_planar_pitch", 1, true, "planar motion and a pitch, any scene",
-     "yaw, direction, pitch", 6, false, "1", 2600},
-    {"relpose_1pc_ackermann", 1, false, "circular planar motion, any scene", "yaw", 1, false, "1",
-     40},
-    {"relpose_2pc_ground", 2, false, "planar motion, ground", "yaw, t", 1, true, "camera height",
-     64},
-    {"relpose_2pc_planar", 2, false, "planar motion, any scene", "yaw, direction", 2, false, "1",
-     330},
-    {"relpose_3pc_vertical", 3, false, "planar motion, any wall", "yaw, t, normal", 2, false,
-     "wall distance", 610},
-    {"homography_2ac", 2, true, "any motion, one plane", "H (R, t, normal)", 1, false,
-     "plane distance", 4400},
-    {"homography_4pc", 4, false, "any motion, one plane", "H (R, t, normal)", 1, false,
-     "plane distance", 1100},
-    {"essential_5pc", 5, false, "any motion, any scene", "E (R, direction)", 10, false, "1", 6700},
-    {"essential_8pc", 8, false, "any motion, no plane", "E (R, direction)", 1, false, "1", 1400},
-}};
+[[nodiscard]] const std::vector<Solver>& solvers();
+
+/// The row of a name. @throws std::invalid_argument when there is none
+[[nodiscard]] const Solver& solver_named(std::string_view name);
 
 /// The solvers as a Markdown table, a row each, ending in a newline.
 [[nodiscard]] std::string solver_table();

@@ -1,24 +1,17 @@
 #pragma once
 
-#include "oneac/solvers/homography_decomposition.h"
-#include "oneac/solvers/solution_set.h"
+#include "oneac/solvers/registry.h"
 #include "oneac/solvers/span.h"
 
 #include <string_view>
 
 namespace oneac {
 
-/// Who takes part in the study.
-enum class StudyMethod {
-  ac1_ground,
-  ac1_ground_rapid,
-  ac1_front_wall,
-  ac1_front_wall_rapid,
-  ac1_side_wall,
-  ac1_wall,
-  pc4,
-  ac2,
-};
+/// Who takes part in the study: a row of the list of solvers that has a least-squares form.
+using StudyMethod = const Solver*;
+
+/// @throws std::invalid_argument for a name that no such solver has
+[[nodiscard]] StudyMethod study_method(std::string_view name);
 
 /// How many of a trial's four correspondences a method sees.
 enum class DataUse {
@@ -26,14 +19,8 @@ enum class DataUse {
   all,      ///< all four, in least squares
 };
 
-/// Name in figures and files, e.g. "1AC ground".
-[[nodiscard]] std::string_view method_label(StudyMethod method);
-/// The solver behind it, as in the registry.
-[[nodiscard]] std::string_view method_solver(StudyMethod method);
-
 /// Candidate poses from the four correspondences of a trial. Signs are resolved by cheirality, so
 /// up to two remain for 1AC vertical and for both homographies.
-[[nodiscard]] SolutionSet<PlanePose, 2> candidates_of(StudyMethod method, AcSpan correspondences,
-                                                      DataUse use);
+[[nodiscard]] PoseSet candidates_of(StudyMethod method, AcSpan correspondences, DataUse use);
 
 }  // namespace oneac

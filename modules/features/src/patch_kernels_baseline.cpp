@@ -1,8 +1,0 @@
-#define ONEAC_PATCH_WIDTH 4
-#include "patch_loops.h"
-
-namespace oneac::internal {
-
-const PatchKernels kPatchKernelsBaseline = kLoops;
-
-}  // namespace oneac::internal

@@ -1,0 +1,91 @@
+#include "oneac/robust/one_ac_consensus.h"
+
+#include "consensus/mode_ranking.h"
+
+#include "oneac/robust/degeneracy.h"
+
+#include <algorithm>
+#include <iterator>
+#include <stdexcept>
+#include <string>
+#include <utility>
+
+namespace oneac {
+namespace {
+
+/// The consensus of correspondences that are all finite.
+RobustResult consensus_of_finite(AcSpan acs, const Eigen::Matrix3d& R_level_cam, double focal_px,
+                                 const ConsensusOptions& options) {
+  RobustResult result;
+  result.inliers.assign(acs.size(), false);
+  if (acs.size() < static_cast<std::size_t>(options.min_inliers)) return result;
+  const internal::ConsensusProblem p(acs, R_level_cam, options.threshold_px / focal_px, options);
+  const DegeneracyBounds bounds{p.threshold, options.standing_px / focal_px};
+  if (auto stood = standing(acs, bounds)) return *stood;
+
+  const std::vector<internal::Candidate> modes = internal::ranked_modes(p, result.statistics);
+  if (modes.empty()) return result;
+  if (auto turned = turning(acs, modes.front().pose.R, bounds)) {
+    turned->statistics = result.statistics;
+    return *turned;
+  }
+  conclude(modes.front().pose, acs, p.threshold, result);
+  if (result.inlier_count < static_cast<std::size_t>(options.min_inliers)) {
+    result.pose = {};
+    result.covariance.setZero();
+    return result;
+  }
+  result.status = PoseStatus::kOk;
+  settle_one_plane(acs, R_level_cam, p.threshold, result);
+  return result;
+}
+
+void require(bool good, const char* field, double value, const char* bound) {
+  if (good) return;
+  throw std::invalid_argument(std::string("consensus.") + field + " = " + std::to_string(value) +
+                              ", must be " + bound);
+}
+
+}  // namespace
+
+void ConsensusOptions::validate() const {
+  const bool some = std::find(pool.on.begin(), pool.on.end(), true) != pool.on.end();
+  require(some, SolverPool::key(0), 0, "true when no other solver is on");
+  require(threshold_px > 0.0, "threshold_px", threshold_px, "positive");
+  require(pitch_sweep_deg >= 0.0 && pitch_sweep_deg <= 10.0, "pitch_sweep_deg", pitch_sweep_deg,
+          "from 0 to 10");
+  require(pitch_step_deg > 0.0, "pitch_step_deg", pitch_step_deg, "positive");
+  require(roll_sweep_deg >= 0.0 && roll_sweep_deg <= 10.0, "roll_sweep_deg", roll_sweep_deg,
+          "from 0 to 10");
+  require(roll_step_deg > 0.0, "roll_step_deg", roll_step_deg, "positive");
+  require(minimal_problems >= 1, "minimal_problems", minimal_problems, "at least 1");
+  require(first_modes >= 0, "first_modes", first_modes, "at least 0");
+  require(first_problems >= 1, "first_problems", first_problems, "at least 1");
+  require(settled_cost >= 0.0 && settled_cost <= 1.0, "settled_cost", settled_cost, "from 0 to 1");
+  require(finalists >= 1, "finalists", finalists, "at least 1");
+  require(modes >= 1, "modes", modes, "at least 1");
+  require(mode_rotation_deg >= 0.0, "mode_rotation_deg", mode_rotation_deg, "at least 0");
+  require(mode_direction_deg >= 0.0, "mode_direction_deg", mode_direction_deg, "at least 0");
+  require(min_inliers >= 5, "min_inliers", min_inliers, "at least 5");
+  require(standing_px >= 0.0, "standing_px", standing_px, "at least 0");
+}
+
+RobustResult one_ac_consensus(AcSpan acs, const Eigen::Matrix3d& R_level_cam, double focal_px,
+                              const ConsensusOptions& options) {
+  const auto is_finite = [](const AffineCorrespondence& ac) { return ac.is_finite(); };
+  if (std::all_of(acs.begin(), acs.end(), is_finite)) {
+    return consensus_of_finite(acs, R_level_cam, focal_px, options);
+  }
+  std::vector<AffineCorrespondence> finite;
+  finite.reserve(acs.size());
+  std::copy_if(acs.begin(), acs.end(), std::back_inserter(finite), is_finite);
+  RobustResult result = consensus_of_finite(finite, R_level_cam, focal_px, options);
+  std::vector<bool> inliers(acs.size(), false);
+  for (std::size_t i = 0, k = 0; i < acs.size(); ++i) {
+    if (acs[i].is_finite()) inliers[i] = result.inliers[k++];
+  }
+  result.inliers = std::move(inliers);
+  return result;
+}
+
+}  // namespace oneac

@@ -1,0 +1,107 @@
+#pragma once
+
+#include "oneac/geometry/essential.h"
+#include "oneac/solvers/essential_8pc.h"
+#include "oneac/solvers/registry.h"
+#include "oneac/solvers/relpose_1ac_planar_pitch.h"
+#include "oneac/solvers/wall_pose.h"
+
+#include <cstddef>
+#include <type_traits>
+#include <utility>
+
+// Makes the columns of a row of the list from the solver's own functions.
+namespace oneac::internal {
+
+/// What the solutions of a solver are.
+enum class Gives { kPoses, kHomographies, kEssentials };
+
+inline PlanePose with_plane(const PlanarPose& s) {
+  return {s.pose(), Eigen::Vector3d::UnitY()};
+}
+inline PlanePose with_plane(const WallPose& s) {
+  return {s.pose(), s.normal()};
+}
+inline PlanePose with_plane(const PitchedPose& s) {
+  return {s.pose(), Eigen::Vector3d::UnitY()};
+}
+
+/// The solver's own solution set, whatever form its parameters have.
+template <auto kSolve>
+auto call(AcSpan acs) {
+  using Function = decltype(kSolve);
+  if constexpr (std::is_invocable_v<Function, AcSpan, const double*>) {
+    return kSolve(acs, nullptr);
+  } else if constexpr (std::is_invocable_v<Function, AcSpan>) {
+    return kSolve(acs);
+  } else {
+    return kSolve(acs[0]);
+  }
+}
+
+template <auto kSolve>
+std::size_t count(AcSpan acs) {
+  return call<kSolve>(acs).size();
+}
+
+template <auto kSolve, Gives kGives>
+PoseSet poses(AcSpan acs) {
+  PoseSet set;
+  for (const auto& solution : call<kSolve>(acs)) {
+    if constexpr (kGives == Gives::kPoses) {
+      set.push_back(with_plane(solution));
+    } else if constexpr (kGives == Gives::kHomographies) {
+      for (const PlanePose& pose : poses_from_homography(solution, acs)) set.push_back(pose);
+    } else {
+      for (const RelativePose& pose : pose_from_essential(solution, acs)) set.push_back({pose});
+    }
+  }
+  return set;
+}
+
+inline void add_essential(const RelativePose& T, EssentialSet& set) {
+  const double length = T.t.norm();
+  if (length > 0.0) set.push_back(essential_matrix({T.R, T.t / length}));
+}
+
+template <auto kSolve, Gives kGives>
+EssentialSet essentials(AcSpan acs) {
+  EssentialSet set;
+  for (const auto& solution : call<kSolve>(acs)) {
+    if constexpr (kGives == Gives::kPoses) {
+      add_essential(solution.pose(), set);
+    } else if constexpr (kGives == Gives::kHomographies) {
+      for (const PlanePose& pose : poses_from_homography(solution, acs)) {
+        add_essential(pose.motion, set);
+      }
+    } else {
+      set.push_back(solution);
+    }
+  }
+  return set;
+}
+
+template <auto kSolve>
+PlanarPoseSet planar(const AffineCorrespondence& ac) {
+  PlanarPoseSet set;
+  for (const PlanarPose& pose : kSolve(ac)) set.push_back(pose);
+  return set;
+}
+
+/// The columns of a row from its minimal and its least-squares function (nullptr: none).
+template <auto kMinimal, auto kLeastSquares, Gives kGives = Gives::kPoses>
+constexpr SolverFunctions functions() {
+  using Set = decltype(call<kMinimal>(AcSpan()));
+  using Solution = std::decay_t<decltype(std::declval<Set>()[0])>;
+  SolverFunctions run{
+      static_cast<int>(Set::kCapacity), &count<kMinimal>, &essentials<kMinimal, kGives>,
+      &poses<kMinimal, kGives>,         nullptr,          nullptr};
+  if constexpr (kLeastSquares != nullptr) run.least_squares = &poses<kLeastSquares, kGives>;
+  constexpr bool kOfOne = std::is_invocable_v<decltype(kMinimal), const AffineCorrespondence&>;
+  if constexpr (kOfOne && std::is_base_of_v<PlanarPose, Solution>) {
+    if constexpr (Set::kCapacity <= PlanarPoseSet::kCapacity) run.planar = &planar<kMinimal>;
+  }
+  return run;
+}
+
+}  // namespace oneac::internal
