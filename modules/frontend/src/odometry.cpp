@@ -129,7 +129,8 @@ Odometry::TwoView Odometry::estimate(StepTracks& tracks, double focal_px, StepRe
 void Odometry::follow(const StepTracks& tracks, const TwoView& found, StepResult& step) {
   if (!map_) return;
   if (found.status == StepStatus::kPredicted) {
-    map_->extend({}, {});  // nothing goes on
+    if (map_->keyframes().empty()) restart({}, {});  // after finish()
+    map_->extend({}, {});                            // nothing goes on
     lost_ = true;
     return;
   }
@@ -224,6 +225,7 @@ void Odometry::update_map(const CameraFrame& frame, const StepTracks& tracks, St
 
 Settled Odometry::finish() {
   if (map_) settling_.settle_all(*map_, pending_);
+  lost_ = true;  // what comes is a segment of its own
   return std::exchange(pending_, {});
 }
 

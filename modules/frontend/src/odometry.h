@@ -29,7 +29,7 @@ class Odometry {
   [[nodiscard]] FrameResult start(const CameraFrame& frame);
   /// A frame and its correspondences with the one before.
   [[nodiscard]] FrameResult advance(const CameraFrame& frame, StepTracks tracks);
-  /// Settles what is left; the next frame is a first one.
+  /// Settles what is left; the next step begins a new segment at the last frame.
   [[nodiscard]] Settled finish();
 
   /// For the tilt source "imu".
