@@ -19,14 +19,18 @@ IntakeOptions following(const std::string& camera) {
   return options;
 }
 
+/// @throws std::bad_optional_access when the observation gives none
+CameraFrame frame_of(ObservationIntake& intake, const mrpt::obs::CObservation& observation) {
+  return intake.take(observation).frame.value();
+}
+
 TEST(ObservationIntake, MakesAFrameOfAnImage) {
   ObservationIntake intake({});
-  const auto frame = intake.take(*test::stored_image("CAM", 2.0, test::ramp(40))).frame;
-  ASSERT_TRUE(frame);
-  EXPECT_NEAR(frame->time_s, test::kStart + 2.0, 1e-6);
-  EXPECT_EQ(frame->image.row(20)[30], 70);
-  EXPECT_EQ(frame->camera.width, test::kWidth);
-  EXPECT_NEAR(frame->T_vehicle_cam.linear()(0, 2), 1.0, 1e-12);  // x forward in the log
+  const auto frame = frame_of(intake, *test::stored_image("CAM", 2.0, test::ramp(40)));
+  EXPECT_NEAR(frame.time_s, test::kStart + 2.0, 1e-6);
+  EXPECT_EQ(frame.image.row(20)[30], 70);
+  EXPECT_EQ(frame.camera.width, test::kWidth);
+  EXPECT_NEAR(frame.T_vehicle_cam.linear()(0, 2), 1.0, 1e-12);  // x forward in the log
   EXPECT_EQ(intake.counts().images, 1U);
 }
 
@@ -47,16 +51,16 @@ TEST(ObservationIntake, TakesEitherHalfOfAPair) {
   cv::imwrite(base + "_right.png", test::ramp(20));
   const auto pair = test::external_pair("PAIR", 0, base);
   ObservationIntake left({}), right(following("right"));
-  EXPECT_EQ(left.take(*pair).frame->image.row(0)[0], 10);
-  const auto frame = right.take(*pair).frame;
-  EXPECT_EQ(frame->image.row(0)[0], 20);
-  EXPECT_EQ(frame->name, "a_right.png");
+  EXPECT_EQ(frame_of(left, *pair).image.row(0)[0], 10);
+  const auto frame = frame_of(right, *pair);
+  EXPECT_EQ(frame.image.row(0)[0], 20);
+  EXPECT_EQ(frame.name, "a_right.png");
   IntakeOptions options;
   options.reader.stereo = true;
   ObservationIntake both(options);
-  const auto stereo = both.take(*pair).frame;
-  EXPECT_EQ(stereo->right.row(0)[0], 20);
-  EXPECT_NEAR(stereo->baseline_m, 0.12, 1e-12);
+  const auto stereo = frame_of(both, *pair);
+  EXPECT_EQ(stereo.right.row(0)[0], 20);
+  EXPECT_NEAR(stereo.baseline_m, 0.12, 1e-12);
 }
 
 TEST(ObservationIntake, CountsWhatItPassesOverByReason) {
@@ -72,7 +76,7 @@ TEST(ObservationIntake, CountsWhatItPassesOverByReason) {
   EXPECT_EQ(reason(imu), PassedOver::kUnstamped);
   for (const std::size_t count : {0, 2, 4}) EXPECT_EQ(intake.counts().passed_over.at(count), 1U);
   // Missing ones and late ones count as images of the camera.
-  EXPECT_EQ(intake.take(*test::stored_image("CAM", 3.0, test::ramp(0))).frame->index, 3U);
+  EXPECT_EQ(frame_of(intake, *test::stored_image("CAM", 3.0, test::ramp(0))).index, 3U);
 }
 
 TEST(ObservationIntake, GoesOnAfterARefusal) {
@@ -80,7 +84,7 @@ TEST(ObservationIntake, GoesOnAfterARefusal) {
   const auto bad = test::stored_image("CAM", 0.0, test::ramp(0));
   bad->cameraParams.fx(0.0);
   EXPECT_THROW(static_cast<void>(intake.take(*bad)), InputError);
-  EXPECT_EQ(intake.take(*test::stored_image("CAM", 0.1, test::ramp(0))).frame->index, 1U);
+  EXPECT_EQ(frame_of(intake, *test::stored_image("CAM", 0.1, test::ramp(0))).index, 1U);
   const auto unstamped = test::stored_image("CAM", 0.2, test::ramp(0));
   unstamped->timestamp = INVALID_TIMESTAMP;
   EXPECT_THROW(static_cast<void>(intake.take(*unstamped)), InputError);
