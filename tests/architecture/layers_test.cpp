@@ -23,24 +23,25 @@ const std::map<std::string, std::set<std::string>> kMayInclude = {
     {"features", {"geometry", "base"}},
     {"refine", {"geometry", "base"}},
     {"mrpt_compat", {}},
+    {"observations", {"geometry", "base", "mrpt_compat"}},
     {"initialisers", {"robust", "solvers", "geometry", "base", "mrpt_compat"}},
     {"frontend",
-     {"initialisers", "features", "refine", "robust", "solvers", "geometry", "base",
+     {"initialisers", "features", "refine", "robust", "solvers", "observations", "geometry", "base",
       "mrpt_compat"}},
-    {"rawlog", {"geometry", "base", "mrpt_compat"}},
+    {"rawlog", {"observations", "geometry", "base", "mrpt_compat"}},
     {"simulation", {"geometry", "base"}},
     {"evaluation", {"geometry", "base"}},
     {"comparison",
-     {"initialisers", "features", "robust", "solvers", "rawlog", "evaluation", "geometry", "base",
-      "mrpt_compat"}},
+     {"initialisers", "features", "robust", "solvers", "rawlog", "evaluation", "observations",
+      "geometry", "base", "mrpt_compat"}},
 };
 
 /// Third-party headers that a module's public headers must not show.
 const std::vector<std::string> kHidden = {"opencv2/", "vl/",    "ceres/", "nlohmann/",
                                           "zlib.h",   "zstd.h", "CLI/"};
 /// MRPT is at home in these modules only.
-const std::set<std::string> kKnowMrpt = {"mrpt_compat", "initialisers", "frontend", "rawlog",
-                                         "comparison"};
+const std::set<std::string> kKnowMrpt = {"mrpt_compat", "observations", "initialisers",
+                                         "frontend",    "rawlog",       "comparison"};
 
 struct Include {
   fs::path file;

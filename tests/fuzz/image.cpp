@@ -1,13 +1,13 @@
 // The content of an image file: JPEG, PNG, whatever OpenCV takes for one.
 #include "fuzz.h"
-#include "image_decoding.h"
+#include "oneac/observations/image_decoding.h"
 
 #include "oneac/base/error.h"
 
 ONEAC_FUZZ_TARGET(image) {
   try {
-    const cv::Mat grey = oneac::decode_grey_bytes({data.begin(), data.end()}, "image");
-    oneac::fuzz::check(grey.type() == CV_8U && !grey.empty(), "8-bit grey");
+    const oneac::GreyImage grey = oneac::decode_grey_bytes({data.begin(), data.end()}, "image");
+    oneac::fuzz::check(!grey.empty(), "8-bit grey");
   } catch (const oneac::InputError&) {  // what it may throw
   }
 }

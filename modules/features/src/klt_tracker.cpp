@@ -59,7 +59,7 @@ TrackedPair KltTracker::advance(std::shared_ptr<const FrameFeatures> now, const 
   if (!frame) throw std::invalid_argument("advance: the frame was not prepared by this tracker");
   if (anchor_ && (anchor_->pyramid.width() != frame->pyramid.width() ||
                   anchor_->pyramid.height() != frame->pyramid.height())) {
-    throw std::invalid_argument("advance: the images differ in size, call reset() between them");
+    throw std::invalid_argument("advance: the image has another size than the one before");
   }
   TrackedPair pair;
   if (!anchor_) {

@@ -4,13 +4,14 @@
 #include "scale/stereo_depths.h"
 #include "two_view/normalised_pair.h"
 
+#include "oneac/base/require.h"
 #include "oneac/base/thread_clock.h"
-#include "oneac/frontend/observation_input.h"
 
 #include <mrpt/containers/yaml.h>
-#include <mrpt/core/Clock.h>
 #include <mrpt/obs/CObservation.h>
 
+#include <cmath>
+#include <sstream>
 #include <stdexcept>
 #include <utility>
 
@@ -20,6 +21,18 @@ namespace {
 mrpt::containers::yaml initialiser_yaml(const FrontEndOptions& options) {
   const InitialiserOptions chosen{options.estimator, options.consensus, options.gc_ransac};
   return mrpt::containers::yaml::FromText(chosen.to_yaml());
+}
+
+IntakeOptions intake_options(const FrontEndOptions& options) {
+  const bool stereo = options.scale.source == "stereo";
+  return {options.camera, {options.mount_convention, options.calibration, stereo}};
+}
+
+/// The comparison is false for NaN.
+void require_within(double value, double limit, const char* field) {
+  std::ostringstream bound;
+  bound << "from " << -limit << " to " << limit;
+  require(std::abs(value) <= limit, field, value, bound.str());
 }
 
 }  // namespace
@@ -37,7 +50,10 @@ const char* to_string(StepStatus status) {
 }
 
 FrontEnd::FrontEnd(const FrontEndOptions& options)
-    : COutputLogger("oneac.FrontEnd"), options_(options), profiler_(true, "", true) {
+    : COutputLogger("oneac.FrontEnd"),
+      options_(options),
+      intake_(intake_options(options)),
+      profiler_(true, "", true) {
   options_.validate();
   tracker_ = make_tracker(options_.features);
   const RelativePoseInitialiser::Ptr initialiser = make_initialiser(options_.initialiser);
@@ -75,7 +91,9 @@ FrameResult FrontEnd::process(PreparedFrame prepared) {
   prepared.frame.right = {};
   if (!started_) {
     started_ = true;
-    return odometry_->start(frame);
+    FrameResult first = odometry_->start(frame);
+    trajectory_.add(first);
+    return first;
   }
   FrameResult result = odometry_->advance(frame, std::move(pair));
   result.step->features_ms = features_ms;
@@ -87,6 +105,7 @@ FrameResult FrontEnd::process(PreparedFrame prepared) {
     MRPT_LOG_DEBUG_FMT("image %zu: %zu correspondences, %zu agree: the last motion goes on",
                        frame.index, result.step->acs, result.step->inliers);
   }
+  trajectory_.add(result);
   return result;
 }
 
@@ -103,29 +122,40 @@ MotionHint FrontEnd::hint() const {
 
 std::optional<FrameResult> FrontEnd::feed(const mrpt::obs::CObservation::Ptr& observation) {
   if (!observation) throw std::invalid_argument("FrontEnd::feed: observation = null");
-  if (const auto acceleration = acceleration_from_observation(*observation)) {
-    add_acceleration(mrpt::Clock::toDouble(observation->timestamp), *acceleration,
-                     yaw_rate_from_observation(*observation));
-  } else if (const auto speed = speed_from_observation(*observation)) {
-    add_speed(mrpt::Clock::toDouble(observation->timestamp), *speed);
+  Intake intake = intake_.take(*observation);
+  if (intake.passed_over) log_first(*intake.passed_over);
+  if (intake.inertial) {
+    const auto& rate = intake.inertial->angular_rate;
+    add_acceleration(intake.inertial->time_s, *intake.inertial->acceleration,
+                     rate ? std::optional(rate->z()) : std::nullopt);
   }
-  const std::string& wanted = options_.camera.empty() ? fed_label_ : options_.camera;
-  const bool any = options_.camera.empty() && fed_ == 0;
-  if (!any && observation->sensorLabel != wanted) return std::nullopt;
-  auto frame = frame_from_observation(*observation);
-  if (!frame || !(frame->time_s > fed_time_)) return std::nullopt;
-  fed_label_ = observation->sensorLabel;
-  fed_time_ = frame->time_s;
-  frame->index = fed_++;
-  return process(prepare(std::move(*frame)));
+  if (intake.speed) add_speed(intake.speed->time_s, intake.speed->speed);
+  if (!intake.frame) return std::nullopt;
+  return process(prepare(std::move(*intake.frame)));
+}
+
+// Other sensors are no fault; images and readings that are lost may be one.
+void FrontEnd::log_first(PassedOver reason) const {
+  if (intake_.counts().of(reason) != 1) return;
+  const bool harmless = reason == PassedOver::kOtherClass || reason == PassedOver::kOtherSensor;
+  logFmt(harmless ? mrpt::system::LVL_DEBUG : mrpt::system::LVL_WARN,
+         "an observation is passed over: %s", to_string(reason));
 }
 
 void FrontEnd::add_acceleration(double time_s, const Eigen::Vector3d& acceleration,
                                 std::optional<double> yaw_rate) {
+  require_within(time_s, SensorLimits::kLatest, "add_acceleration: time_s");
+  for (const double axis : acceleration) {
+    require_within(axis, SensorLimits::kAcceleration, "add_acceleration: acceleration");
+  }
+  if (yaw_rate) require_within(*yaw_rate, SensorLimits::kRate, "add_acceleration: yaw_rate");
   odometry_->add_inertial({time_s, acceleration, yaw_rate});
 }
 
 void FrontEnd::add_speed(double time_s, double speed_mps) {
+  require_within(time_s, SensorLimits::kLatest, "add_speed: time_s");
+  require(speed_mps >= 0.0 && speed_mps <= SensorLimits::kFastest, "add_speed: speed_mps",
+          speed_mps, "from 0 to 1000");
   odometry_->add_speed(time_s, speed_mps);
 }
 
@@ -134,7 +164,9 @@ TiltBelief FrontEnd::tilt_belief() const {
 }
 
 Settled FrontEnd::finish() {
-  return odometry_->finish();
+  Settled settled = odometry_->finish();
+  trajectory_.finish(settled);
+  return settled;
 }
 
 Tilt FrontEnd::tilt() const {

@@ -54,6 +54,10 @@ void ScaleOptions::validate() const {
 void FrontEndOptions::validate() const {
   require(camera_height >= 0.0 && camera_height < 100.0, "front_end.camera_height",
           std::to_string(camera_height), "from 0 to 100");
+  const bool known = mount_convention == "auto" || mount_convention == "optical" ||
+                     mount_convention == "x_forward";
+  require(known, "front_end.mount_convention", mount_convention, "auto, optical or x_forward");
+  if (calibration) calibration->validate();
   require(max_hold >= 0.0, "front_end.max_hold", std::to_string(max_hold), "at least 0");
   tilt.validate();
   features.validate();

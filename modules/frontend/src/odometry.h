@@ -24,7 +24,7 @@ class Odometry {
   [[nodiscard]] FrameResult start(const CameraFrame& frame);
   /// A frame and its correspondences with the one before, normalised.
   [[nodiscard]] FrameResult advance(const CameraFrame& frame, TrackedPair pair);
-  /// Settles what is left.
+  /// Settles what is left; the next step begins a new segment at the last frame.
   [[nodiscard]] Settled finish() { return map_.finish(); }
 
   /// For the tilt source "imu".

@@ -19,7 +19,7 @@ std::string joined(const std::set<std::string>& names) {
 
 }  // namespace
 
-bool is_present(const CameraView& view, ExternalImages& images) {
+bool is_present(const LogView& view, ExternalImages& images) {
   if (view.image->kind == LogImage::Kind::external) {
     return images.find(view.image->file).has_value();
   }
@@ -32,24 +32,19 @@ CameraProbe::CameraProbe(std::string wanted, ExternalImages& images)
 void CameraProbe::add(const RawlogRecord& record) {
   const auto& observation = *record.observation;
   sensors_.insert(observation.sensorLabel + " (" + compat::class_name(observation) + ")");
-  const auto views = camera_views(record);
+  const auto views = log_views(record);
   for (const auto& view : views) add_view(view, record);
   if (observation.timestamp == INVALID_TIMESTAMP) return;
   last_time_ = compat::unix_seconds(observation.timestamp);
   if (!views.empty() && !first_time_) first_time_ = last_time_;
 }
 
-void CameraProbe::add_view(const CameraView& view, const RawlogRecord& record) {
+void CameraProbe::add_view(const LogView& view, const RawlogRecord& record) {
   auto& candidate = candidates_[view.name()];
   if (candidate.images++ == 0) {
-    candidate.name = view.name();
-    candidate.label = view.label;
-    candidate.side_name = view.side_name();
-    candidate.side = view.side;
+    static_cast<CameraDescription&>(candidate) = CameraDescription::of(view);
     candidate.matches = view.matches(wanted_);
     candidate.first_record = record.number;
-    candidate.calibration = *view.calibration;
-    candidate.T_vehicle_sensor = view.T_vehicle_sensor;
   }
   if (candidate.matches && !candidate.present) candidate.present = is_present(view, images_);
 }

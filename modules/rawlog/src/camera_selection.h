@@ -1,8 +1,10 @@
 #pragma once
 
-#include "camera_view.h"
 #include "external_images.h"
 #include "log_reader.h"
+#include "log_view.h"
+
+#include "oneac/observations/camera_reader.h"
 
 #include <filesystem>
 #include <map>
@@ -14,20 +16,14 @@
 namespace oneac {
 
 /// Whether the pixels of a view can be had: stored in the log, or in a file that exists.
-[[nodiscard]] bool is_present(const CameraView& view, ExternalImages& images);
+[[nodiscard]] bool is_present(const LogView& view, ExternalImages& images);
 
-/// A camera of the log, as its first image describes it.
-struct CameraCandidate {
-  std::string name;       ///< CameraView::name()
-  std::string label;      ///< of the sensor
-  std::string side_name;  ///< CameraView::side_name()
-  CameraView::Side side = CameraView::Side::mono;
+/// A camera of the log.
+struct CameraCandidate : CameraDescription {
   bool matches = false;  ///< the user's --camera
   bool present = false;  ///< an image of it has been found
   std::size_t images = 0;
   std::size_t first_record = 0;
-  mrpt::img::TCamera calibration;
-  Eigen::Isometry3d T_vehicle_sensor = Eigen::Isometry3d::Identity();
 };
 
 /// Decides which camera of a log is meant, from the beginning of the log.
@@ -48,7 +44,7 @@ class CameraProbe {
   [[nodiscard]] bool has_images() const { return !candidates_.empty(); }
 
  private:
-  void add_view(const CameraView& view, const RawlogRecord& record);
+  void add_view(const LogView& view, const RawlogRecord& record);
   [[nodiscard]] std::vector<const CameraCandidate*> meant() const;
   [[nodiscard]] std::string names() const;
 

@@ -1,6 +1,6 @@
 #include "import_images.h"
 
-#include "image_decoding.h"
+#include "oneac/observations/image_decoding.h"
 
 #include "oneac/base/atomic_file.h"
 #include "oneac/base/error.h"
@@ -34,8 +34,8 @@ std::vector<fs::path> list_images(const fs::path& folder) {
 }
 
 std::pair<int, int> image_size(const fs::path& image) {
-  const cv::Mat pixels = decode_grey_file(image);
-  return {pixels.cols, pixels.rows};
+  const GreyImage pixels = decode_grey_file(image);
+  return {pixels.width(), pixels.height()};
 }
 
 void require_source_folder(const fs::path& source) {

@@ -1,6 +1,8 @@
 #include "log_image.h"
 
-#include "image_decoding.h"
+#include "oneac/observations/image_decoding.h"
+
+#include <opencv2/core.hpp>
 
 #include <stdexcept>
 #include <utility>
@@ -122,8 +124,8 @@ LogImage read_log_image(DecompressingStream& stream, int version) {
   return image;
 }
 
-cv::Mat decode_grey(const LogImage& image, const std::string& name) {
-  if (image.kind == Kind::jpeg) return decode_grey_bytes(image.bytes, name);
+GreyImage decode_grey(const LogImage& image, const std::string& name) {
+  if (image.kind == Kind::jpeg) return decode_grey_by_colour(image.bytes, name);
   const int type = image.kind == Kind::grey_16 ? CV_16U : CV_8U;
   const int channels = image.kind == Kind::bgr_8 ? 3 : 1;
   auto* data = const_cast<std::uint8_t*>(image.bytes.data());

@@ -2,7 +2,7 @@
 
 #include "decompressing_stream.h"
 
-#include <opencv2/core.hpp>
+#include "oneac/base/image.h"
 
 #include <cstdint>
 #include <memory>
@@ -32,6 +32,6 @@ using LogImages = std::vector<std::shared_ptr<const LogImage>>;
 
 /// 8-bit grey. Not for external images.
 /// @throws InputError naming the image when it cannot be decoded
-[[nodiscard]] cv::Mat decode_grey(const LogImage& image, const std::string& name);
+[[nodiscard]] GreyImage decode_grey(const LogImage& image, const std::string& name);
 
 }  // namespace oneac

@@ -1,8 +1,8 @@
 #include "log_reader.h"
 
-#include "camera_view.h"
 #include "decompressing_stream.h"
 #include "guarded_stream.h"
+#include "log_view.h"
 
 #include "oneac/mrpt_compat/observations.h"
 

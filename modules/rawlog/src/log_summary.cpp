@@ -49,7 +49,7 @@ class Summariser {
     Times times;
   };
 
-  void add_view(const CameraView& view, std::size_t record);
+  void add_view(const LogView& view, std::size_t record);
   void describe(CameraSummary& camera, const CameraView& view, std::size_t record) const;
   void add_sensors(LogSummary& summary) const;
   void add_reference(LogSummary& summary) const;
@@ -71,11 +71,11 @@ void Summariser::add(const RawlogRecord& record) {
   if (stamped) {
     sensor.times.push_back(compat::unix_seconds(observation.timestamp));
   }
-  for (const auto& view : camera_views(record)) add_view(view, record.number);
+  for (const auto& view : log_views(record)) add_view(view, record.number);
   collector_.add(observation);
 }
 
-void Summariser::add_view(const CameraView& view, std::size_t record) {
+void Summariser::add_view(const LogView& view, std::size_t record) {
   auto& camera = cameras_[view.name()];
   if (camera.images++ == 0) describe(camera, view, record);
   if (is_present(view, images_)) ++camera.present;

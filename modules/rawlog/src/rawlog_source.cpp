@@ -5,13 +5,12 @@
 #include "log_reader.h"
 #include "reference_collector.h"
 #include "stored_image.h"
-#include "undistortion.h"
 
 #include "oneac/base/error.h"
 #include "oneac/base/thread_clock.h"
 #include "oneac/mrpt_compat/observations.h"
+#include "oneac/observations/camera_reader.h"
 #include "oneac/rawlog/calibration.h"
-#include "oneac/rawlog/sensor_mount.h"
 
 #include <utility>
 
@@ -30,8 +29,8 @@ struct Payload {
 
 /// The image of the camera and, of a pair, that of its right half.
 struct Sight {
-  CameraView view;
-  std::optional<CameraView> right;
+  LogView view;
+  std::optional<LogView> right;
 };
 
 }  // namespace
@@ -52,24 +51,20 @@ class RawlogSource::Impl {
   [[nodiscard]] double progress() const { return reader_.progress(); }
 
  private:
-  [[nodiscard]] PinholeCamera calibration() const;
+  [[nodiscard]] CameraReaderOptions reader_options() const;
   [[nodiscard]] std::optional<Sight> take(const RawlogRecord& record);
   [[nodiscard]] bool is_selected(std::size_t index) const;
   [[nodiscard]] std::optional<FrameTicket> ticket_of(const Sight& sight,
                                                      const RawlogRecord& record);
-  void add_right(const CameraView& right, std::size_t record, Payload& payload);
+  void add_right(const LogView& right, std::size_t record, Payload& payload);
   [[nodiscard]] GreyImage decoded(const StoredImage& image, const std::string& ticket_name) const;
   [[nodiscard]] std::string where(std::size_t record) const;
-  void check_calibration(const CameraView& view, std::size_t record) const;
   void complete_report();
 
   SourceOptions options_;
   ExternalImages images_;
   CameraCandidate chosen_;
-  MountConvention convention_;
-  PinholeCamera calibration_;
-  bool rectified_;  ///< the images are, by the calibration in use
-  Undistorter undistorter_;
+  CameraReader camera_;
   LogReader reader_;
   ReferenceCollector collector_;
   SourceReport report_;
@@ -81,25 +76,19 @@ RawlogSource::Impl::Impl(const SourceOptions& options)
     : options_((options.validate(), options)),
       images_(options.log, options.images_dir),
       chosen_(choose_camera(options.log, options.camera, images_)),
-      convention_(
-          mount_from_sensor_pose(chosen_.T_vehicle_sensor, options.mount_convention).convention),
-      calibration_(calibration()),
-      rectified_(!calibration_.is_distorted()),
-      undistorter_(calibration_),
+      camera_(chosen_, reader_options(), where(chosen_.first_record)),
       reader_(options.log) {
-  report_.undistorted_by_log = !rectified_ && options_.calibration.empty();
-  if (!options_.stereo || chosen_.side == CameraView::Side::left) return;
-  throw InputError(options_.log.string() + ": camera '" + chosen_.name + "'",
-                   "it is not the left one of a stereo pair",
-                   "set front_end.scale.source to height, gps or none");
+  report_.undistorted_by_log = camera_.undistorts() && options_.calibration.empty();
 }
 
-PinholeCamera RawlogSource::Impl::calibration() const {
+CameraReaderOptions RawlogSource::Impl::reader_options() const {
+  CameraReaderOptions options;
+  options.mount_convention = options_.mount_convention;
+  options.stereo = options_.stereo;
   if (!options_.calibration.empty()) {
-    return load_calibration(options_.calibration, chosen_.side_name);
+    options.calibration = load_calibration(options_.calibration, chosen_.side_name);
   }
-  return to_pinhole(chosen_.calibration,
-                    where(chosen_.first_record) + ": camera '" + chosen_.name + "'");
+  return options;
 }
 
 std::string RawlogSource::Impl::where(std::size_t record) const {
@@ -110,7 +99,7 @@ std::string RawlogSource::Impl::where(std::size_t record) const {
 std::optional<Sight> RawlogSource::Impl::take(const RawlogRecord& record) {
   collector_.add(*record.observation);
   std::optional<Sight> sight;
-  for (auto& view : camera_views(record)) {
+  for (auto& view : log_views(record)) {
     if (view.name() == chosen_.name) {
       ++report_.images_in_log;
       sight.emplace(Sight{view, std::nullopt});
@@ -140,21 +129,16 @@ std::optional<FrameTicket> RawlogSource::Impl::next() {
   return std::nullopt;
 }
 
-// Rows correspond only when both images were rectified together; this program does not do it.
-void RawlogSource::Impl::add_right(const CameraView& right, std::size_t record, Payload& payload) {
-  const auto baseline = rectified_baseline(right, calibration_, !options_.calibration.empty());
-  if (!baseline) {
-    throw InputError(where(record), "the images of the stereo pair are not rectified",
-                     "rectify them, or set front_end.scale.source to height, gps or none");
-  }
+void RawlogSource::Impl::add_right(const LogView& right, std::size_t record, Payload& payload) {
+  const double baseline = camera_.baseline(right, where(record));
   payload.right = stored_image(right, images_);
-  payload.baseline_m = payload.right ? *baseline : 0.0;
+  payload.baseline_m = payload.right ? baseline : 0.0;
 }
 
 std::optional<FrameTicket> RawlogSource::Impl::ticket_of(const Sight& sight,
                                                          const RawlogRecord& record) {
-  const CameraView& view = sight.view;
-  check_calibration(view, record.number);
+  const LogView& view = sight.view;
+  camera_.check_calibration(view, where(record.number));
   FrameTicket ticket;
   ticket.index = report_.images_in_log - 1;
   ticket.name = view.image->kind == LogImage::Kind::external
@@ -168,28 +152,16 @@ std::optional<FrameTicket> RawlogSource::Impl::ticket_of(const Sight& sight,
   auto payload = std::make_shared<Payload>();
   payload->image = std::move(*image);
   if (sight.right) add_right(*sight.right, record.number, *payload);
-  if (record.observation->timestamp == INVALID_TIMESTAMP) {
-    throw InputError(where(record.number), "the image has no time stamp",
-                     "restamp the log with rawlog-edit");
-  }
-  ticket.time_s = compat::unix_seconds(record.observation->timestamp);
-  const auto mount = mount_from_sensor_pose(view.T_vehicle_sensor, to_string(convention_));
-  payload->T_vehicle_cam = mount.T_vehicle_cam * view.offset_in_pair(rectified_);
+  ticket.time_s = CameraReader::time_of(record.observation->timestamp, where(record.number));
+  payload->T_vehicle_cam = camera_.mount(view);
   ticket.payload = std::move(payload);
   return ticket;
-}
-
-// One map for all images holds only while the calibration stays the same.
-void RawlogSource::Impl::check_calibration(const CameraView& view, std::size_t record) const {
-  if (!options_.calibration.empty() || *view.calibration == chosen_.calibration) return;
-  throw InputError(where(record), "the calibration of camera '" + chosen_.name + "' changes here",
-                   "cut the log there, or give one with --calibration FILE[:SECTION]");
 }
 
 GreyImage RawlogSource::Impl::decoded(const StoredImage& image,
                                       const std::string& ticket_name) const {
   const std::string in_log = options_.log.string() + ": " + ticket_name;
-  return undistorter_.rectify(image.grey(in_log), image.name(in_log));
+  return camera_.rectify(image.grey(in_log), image.name(in_log));
 }
 
 CameraFrame RawlogSource::Impl::load(const FrameTicket& ticket) const {
@@ -204,7 +176,7 @@ CameraFrame RawlogSource::Impl::load(const FrameTicket& ticket) const {
   frame.index = ticket.index;
   frame.time_s = ticket.time_s;
   frame.name = ticket.name;
-  frame.camera = undistorter_.rectified_camera(frame.image);
+  frame.camera = camera_.rectified_camera(frame.image);
   frame.T_vehicle_cam = payload.T_vehicle_cam;
   return frame;
 }

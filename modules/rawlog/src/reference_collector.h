@@ -1,5 +1,6 @@
 #pragma once
 
+#include "oneac/observations/sensor_readings.h"
 #include "oneac/rawlog/vehicle_reference.h"
 
 #include <mrpt/obs/CObservation.h>
@@ -24,20 +25,7 @@ class ReferenceCollector {
   [[nodiscard]] VehicleReference build() const;
 
  private:
-  struct Geodetic {
-    double latitude_deg = 0.0;
-    double longitude_deg = 0.0;
-    double height = 0.0;  ///< [m]
-
-    [[nodiscard]] bool is_on_earth() const;  ///< false for NaN too
-  };
-  struct Reading {
-    double time_s = 0.0;
-    std::optional<Geodetic> position;
-    std::optional<double> speed;
-    std::optional<double> course;
-  };
-  using Readings = std::vector<Reading>;
+  using Readings = std::vector<GpsReading>;
 
   [[nodiscard]] static Readings merged(Readings readings);
   [[nodiscard]] static std::vector<GpsFix> to_fixes(const Readings& epochs);

@@ -1,6 +1,6 @@
 #include "guarded_stream.h"
 
-#include "image_decoding.h"
+#include "oneac/observations/image_decoding.h"
 #include "log_maker.h"
 #include "log_reader.h"
 

@@ -1,4 +1,4 @@
-// Feeds a rawlog to oneac::FrontEnd and prints the camera's poses as TUM rows.
+// Feeds a rawlog to oneac::FrontEnd and prints the camera's final poses as TUM rows.
 //   consumer LOG.rawlog IMAGES_DIR [CAMERA_HEIGHT]
 #include <oneac/base/error.h>
 #include <oneac/frontend/front_end.h>
@@ -12,31 +12,45 @@
 
 #include <cstdio>
 #include <cstdlib>
+#include <exception>
 
 namespace {
 
-void print_pose(double time_s, const Eigen::Isometry3d& T) {
-  const Eigen::Quaterniond q(T.linear());
-  const Eigen::Vector3d p = T.translation();
-  std::printf("%.6f %.6f %.6f %.6f %.6f %.6f %.6f %.6f\n", time_s, p.x(), p.y(), p.z(), q.x(),
+void print_pose(const oneac::FramePose& pose) {
+  const Eigen::Quaterniond q(pose.T_first_cam.linear());
+  const Eigen::Vector3d p = pose.T_first_cam.translation();
+  std::printf("%.6f %.6f %.6f %.6f %.6f %.6f %.6f %.6f\n", pose.time_s, p.x(), p.y(), p.z(), q.x(),
               q.y(), q.z(), q.w());
 }
 
-void drive(const char* log, const oneac::FrontEndOptions& options) {
+void feed_log(const char* log, oneac::FrontEnd& front_end) {
   mrpt::io::CFileGZInputStream file(log);
   auto archive = mrpt::serialization::archiveFrom(file);
-  oneac::FrontEnd front_end(options);
   mrpt::obs::CActionCollection::Ptr action;
   mrpt::obs::CSensoryFrame::Ptr frame;
   mrpt::obs::CObservation::Ptr observation;
   std::size_t entry = 0;
   while (mrpt::obs::CRawlog::getActionObservationPairOrObservation(archive, action, frame,
                                                                    observation, entry)) {
-    if (!observation) continue;  // this log holds plain observations only
-    if (const auto result = front_end.feed(observation)) {
-      print_pose(result->time_s, result->T_first_cam);
-    }
+    if (observation) front_end.feed(observation);  // this log holds plain observations only
   }
+}
+
+int drive(const char* log, const oneac::FrontEndOptions& options) {
+  oneac::FrontEnd front_end(options);
+  front_end.logging_enable_console_output = false;  // the poses go there
+  int exit_code = 0;
+  try {
+    feed_log(log, front_end);
+  } catch (const oneac::InputError& error) {  // an image that cannot be used: what came before can
+    std::fprintf(stderr, "%s\n", error.what());
+    exit_code = 2;
+  }
+  front_end.finish();
+  for (const oneac::FramePose& pose : front_end.trajectory().poses()) print_pose(pose);
+  const std::size_t missing = front_end.fed().of(oneac::PassedOver::kMissing);
+  if (missing > 0) std::fprintf(stderr, "%zu images are not there\n", missing);
+  return exit_code;
 }
 
 }  // namespace
@@ -47,8 +61,8 @@ int main(int argc, char** argv) {
   oneac::FrontEndOptions options;
   if (argc > 3) options.camera_height = std::atof(argv[3]);
   try {
-    drive(argv[1], options);
-  } catch (const oneac::InputError& error) {
+    return drive(argv[1], options);
+  } catch (const std::exception& error) {  // options out of bounds, a log that MRPT cannot read
     return std::fprintf(stderr, "%s\n", error.what()), 2;
   }
 }

@@ -1,12 +1,14 @@
 #pragma once
 
 #include "oneac/features/ac_tracker.h"
+#include "oneac/frontend/drive_trajectory.h"
 #include "oneac/frontend/frame_result.h"
 #include "oneac/frontend/front_end_options.h"
 #include "oneac/frontend/tilt_estimator.h"
 #include "oneac/geometry/camera_frame.h"
 #include "oneac/geometry/leveling.h"
 #include "oneac/initialisers/relative_pose_initialiser.h"
+#include "oneac/observations/observation_intake.h"
 
 #include <mrpt/system/COutputLogger.h>
 #include <mrpt/system/CTimeLogger.h>
@@ -34,8 +36,13 @@ struct PreparedFrame {
 /// Frame in, pose out: the visual front-end of a vehicle with one camera.
 ///
 /// track → initialise (any RelativePoseInitialiser) → refine the pair → length from the local map,
-/// else from the road → keyframe decision → adjust the window → correct the scale. No I/O, no
-/// threads, no global state: many instances may live in one process. Logs through COutputLogger.
+/// else from the road → keyframe decision → adjust the window → correct the scale. No I/O but the
+/// external images of observations, no threads, no global state: many instances may live in one
+/// process. Logs through COutputLogger.
+///
+/// What throws what: numbers and pointers that the caller makes up are misuse when they are out of
+/// bounds, std::invalid_argument; what an observation holds is input, InputError for an image of
+/// the camera, and passed over for IMU and GPS, which only help.
 class FrontEnd : public mrpt::system::COutputLogger {
  public:
   /// @throws std::invalid_argument for options out of bounds, InputError for an unknown initialiser
@@ -45,23 +52,35 @@ class FrontEnd : public mrpt::system::COutputLogger {
   /// The part that may run on any thread and ahead of time.
   [[nodiscard]] PreparedFrame prepare(CameraFrame frame) const;
   /// The part that goes frame by frame, in time order.
+  /// @throws std::invalid_argument when the image has another size than those before
   [[nodiscard]] FrameResult process(PreparedFrame prepared);
-  /// An observation in time order: an image (of a stereo pair the left one) gives a result; GPS and
-  /// IMU are remembered for scale and tilt; everything else, an image that cannot be loaded and one
-  /// that is not later than the last are passed over.
-  /// @throws InputError for an image without usable calibration
+  /// An observation as it comes: an image of the camera gives a result, in order of time; GPS and
+  /// IMU are remembered for scale and tilt. What is passed over is counted in fed() and logged, the
+  /// first time for each reason. ObservationIntake says what is followed and what refused, in the
+  /// words of `oneac run`; after a refusal feeding may go on.
+  /// @throws InputError for an image of the camera that cannot be used: no calibration, another
+  ///         lens model than plumb-bob, calibration or size that change, damaged pose, no time
+  ///         stamp, not decodable; std::invalid_argument for a null pointer
   std::optional<FrameResult> feed(const std::shared_ptr<mrpt::obs::CObservation>& observation);
+  /// What became of the observations so far.
+  [[nodiscard]] const IntakeCounts& fed() const { return intake_.counts(); }
   /// Specific force in the vehicle frame [m/s²]: gravity, for tilt.source "imu"; with the yaw rate
   /// [rad/s], where there is one, turns do not count as leaning.
+  /// @throws std::invalid_argument naming argument, value and bound beyond SensorLimits, or when
+  ///         not finite; nothing is taken then
   void add_acceleration(double time_s, const Eigen::Vector3d& acceleration,
                         std::optional<double> yaw_rate = std::nullopt);
-  /// Speed over ground in time order, for scale.source "gps"; offline a second or two ahead of the
-  /// images.
+  /// Speed over ground [m/s], for scale.source "gps"; offline a second or two ahead of the images.
+  /// One that is not later than the last is not used.
+  /// @throws std::invalid_argument as add_acceleration does; a speed is from 0 on
   void add_speed(double time_s, double speed_mps);
   /// CPU time of the stages so far, by name.
   [[nodiscard]] const mrpt::system::CTimeLogger& profiler() const { return profiler_; }
-  /// Makes everything final that still waits, at the end of a drive.
-  [[nodiscard]] Settled finish();
+  /// Makes everything final that still waits, at the end of a drive. Frames that come after it
+  /// begin a new segment, which the next finish() makes final.
+  Settled finish();
+  /// The camera's way so far, a row per frame: final where settled, and wholly after finish().
+  [[nodiscard]] const DriveTrajectory& trajectory() const { return trajectory_; }
 
   /// The camera's tilt as believed now; the log's, corrected by the drive.
   [[nodiscard]] Tilt tilt() const;
@@ -77,6 +96,8 @@ class FrontEnd : public mrpt::system::COutputLogger {
  private:
   /// What the tracker may expect of the next step.
   [[nodiscard]] MotionHint hint() const;
+  /// The first time that observations are passed over for this reason.
+  void log_first(PassedOver reason) const;
 
   FrontEndOptions options_;
   std::unique_ptr<AcTracker> tracker_;
@@ -84,9 +105,8 @@ class FrontEnd : public mrpt::system::COutputLogger {
   bool started_ = false;
   PinholeCamera previous_camera_;
   TrackedPair correspondences_;
-  std::string fed_label_;     ///< camera that feed() follows
-  std::size_t fed_ = 0;       ///< its images
-  double fed_time_ = -1e300;  ///< [s] of the last one
+  ObservationIntake intake_;
+  DriveTrajectory trajectory_;
   mrpt::system::CTimeLogger profiler_;
 };
 

@@ -2,11 +2,13 @@
 
 #include "oneac/features/feature_options.h"
 #include "oneac/frontend/window_options.h"
+#include "oneac/geometry/camera.h"
 #include "oneac/initialisers/initialiser_options.h"
 #include "oneac/refine/two_view.h"
 #include "oneac/robust/ground_scale.h"
 
 #include <cstddef>
+#include <optional>
 #include <string>
 
 namespace oneac {
@@ -29,7 +31,10 @@ struct TiltOptions {
 /// Everything the front-end can be told. validate() throws std::invalid_argument naming field,
 /// value and bound.
 struct FrontEndOptions {
-  std::string camera;  ///< sensor label for feed(); empty: that of the first image
+  /// Camera that feed() follows: "LABEL", "LABEL/right", "left", "right"; empty: of the first image
+  std::string camera;
+  std::string mount_convention = "auto";  ///< of feed()'s sensor poses: auto, optical or x_forward
+  std::optional<PinholeCamera> calibration;  ///< of feed()'s images; else their observations'
   std::string initialiser = "1ac_pooled";  ///< method of the relative pose, see initialiser_names()
   double camera_height =
       0.0;  ///< [m] above the road; 0: the height of the log's sensor pose if ≥ 0.5 m

@@ -2,7 +2,7 @@
 
 #include "oneac/base/error.h"
 #include "oneac/geometry/camera.h"
-#include "oneac/rawlog/sensor_mount.h"
+#include "oneac/observations/sensor_mount.h"
 
 #include <cstddef>
 #include <filesystem>

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "oneac/geometry/camera.h"
-#include "oneac/rawlog/sensor_mount.h"
+#include "oneac/observations/sensor_mount.h"
 
 #include <Eigen/Geometry>
 

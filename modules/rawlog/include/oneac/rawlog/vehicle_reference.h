@@ -1,5 +1,7 @@
 #pragma once
 
+#include "oneac/observations/sensor_readings.h"
+
 #include <Eigen/Core>
 
 #include <filesystem>
@@ -14,13 +16,6 @@ struct GpsFix {
   std::optional<Eigen::Vector3d> position_enu;  ///< east, north, up from the first fix [m]
   std::optional<double> speed;                  ///< over ground [m/s]
   std::optional<double> course;                 ///< direction of travel, clockwise from north [rad]
-};
-
-/// One IMU sample in the vehicle's axes.
-struct ImuSample {
-  double time_s = 0.0;                          ///< Unix time [s]
-  std::optional<Eigen::Vector3d> acceleration;  ///< [m/s²]
-  std::optional<Eigen::Vector3d> angular_rate;  ///< about x, y, z [rad/s]
 };
 
 /// What the other sensors say about the vehicle's motion: a reference, not an input.

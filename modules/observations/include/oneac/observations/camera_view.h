@@ -1,28 +1,32 @@
 #pragma once
 
-#include "log_image.h"
-#include "log_reader.h"
-
 #include "oneac/geometry/camera.h"
 
 #include <mrpt/img/TCamera.h>
 
 #include <Eigen/Geometry>
 
-#include <memory>
+#include <optional>
 #include <string>
 #include <vector>
+
+namespace mrpt::img {
+class CImage;
+}
+namespace mrpt::obs {
+class CObservation;
+}
 
 namespace oneac {
 
 /// One image of an observation with its camera: what an image observation and either half of a
-/// stereo observation have in common. Borrows from the record.
+/// stereo observation have in common. Borrows from the observation.
 struct CameraView {
   enum class Side { mono, left, right };
 
   std::string label;  ///< of the sensor
   Side side = Side::mono;
-  std::shared_ptr<const LogImage> image;  ///< never null
+  const mrpt::img::CImage* pixels = nullptr;  ///< never null in what camera_views() gives
   const mrpt::img::TCamera* calibration = nullptr;
   Eigen::Isometry3d T_vehicle_sensor =
       Eigen::Isometry3d::Identity();  ///< of the left camera of a pair
@@ -39,16 +43,26 @@ struct CameraView {
   /// This camera in the optical frame of the left one. Rectified images of a pair whose stored
   /// calibration is raw belong to cameras that were turned parallel: only the baseline is left.
   [[nodiscard]] Eigen::Isometry3d offset_in_pair(bool images_rectified) const;
+  /// Whether T_vehicle_sensor and T_left_right are finite and rotate.
+  [[nodiscard]] bool has_sound_pose() const;
 };
 
-/// The images of an observation: none, one, or the left and right one of a pair.
-[[nodiscard]] std::vector<CameraView> camera_views(const RawlogRecord& record);
+/// The images of an observation: none, one, or the left and right one of a pair, in this order.
+[[nodiscard]] std::vector<CameraView> camera_views(const mrpt::obs::CObservation& observation);
 
-/// @throws std::runtime_error when the pose of a camera is not finite or not a rotation
-void check_cameras(const mrpt::obs::CObservation& observation);
+/// "the pose of the camera is damaged" (or of the left or right one): what is said of a view
+/// without a sound pose.
+[[nodiscard]] std::string damaged_pose(const CameraView& view);
 
-/// The calibration as stored in a log.
-/// @throws InputError naming `where` when there is none or its lens model is not supported
+/// The calibration as stored in an observation.
+/// @throws InputError naming `where` when there is none (not finite, not positive) or its lens
+///         model is not plumb-bob with k1 k2 p1 p2 k3
 [[nodiscard]] PinholeCamera to_pinhole(const mrpt::img::TCamera& camera, const std::string& where);
+
+/// Baseline [m] of a pair whose rows correspond: parallel, side by side, equal calibrations; empty
+/// for any other pair, and for one whose images are not rectified.
+/// @param overridden  the calibration is not the observation's; then it is that of both images
+[[nodiscard]] std::optional<double> rectified_baseline(const CameraView& right,
+                                                       const PinholeCamera& left, bool overridden);
 
 }  // namespace oneac

@@ -1,4 +1,4 @@
-#include "oneac/rawlog/sensor_mount.h"
+#include "oneac/observations/sensor_mount.h"
 
 #include "oneac/base/error.h"
 

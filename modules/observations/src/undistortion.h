@@ -16,17 +16,19 @@ class Undistorter {
  public:
   explicit Undistorter(const PinholeCamera& camera) : camera_(camera) {}
 
-  /// @param grey  8-bit grey
-  /// @throws InputError naming the image when its size is not the calibration's
-  [[nodiscard]] GreyImage rectify(const cv::Mat& grey, const std::string& name) const;
+  /// @throws InputError naming the image when its size is not the calibration's or, where that is
+  ///         not known, not that of the images before
+  [[nodiscard]] GreyImage rectify(GreyImage grey, const std::string& name) const;
   /// The camera of the rectified images: the same focal lengths and centre, no distortion.
   [[nodiscard]] PinholeCamera rectified_camera(const GreyImage& image) const;
 
  private:
+  void check_size(const GreyImage& grey, const std::string& name) const;
   void compute_map(const cv::Size& size) const;
 
   PinholeCamera camera_;
-  mutable std::once_flag map_computed_;
+  mutable std::once_flag prepared_;
+  mutable cv::Size size_;  ///< of the first image
   mutable cv::Mat map1_;
   mutable cv::Mat map2_;
 };

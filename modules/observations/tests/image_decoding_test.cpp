@@ -1,4 +1,4 @@
-#include "image_decoding.h"
+#include "oneac/observations/image_decoding.h"
 
 #include "log_maker.h"
 
@@ -27,8 +27,9 @@ class ImageDecoding : public ::testing::Test {
   TemporaryFolder folder_;
 };
 
-bool same(const cv::Mat& a, const cv::Mat& b) {
-  return a.type() == b.type() && a.size() == b.size() && cv::norm(a, b, cv::NORM_INF) <= 1.0;
+bool same(GreyImage image, const cv::Mat& grey) {
+  const cv::Mat pixels(image.height(), image.width(), CV_8U, image.row(0));
+  return pixels.size() == grey.size() && cv::norm(pixels, grey, cv::NORM_INF) <= 1.0;
 }
 
 TEST_F(ImageDecoding, ConvertsEveryKindToTheSameGrey) {
@@ -46,6 +47,18 @@ TEST_F(ImageDecoding, ConvertsEveryKindToTheSameGrey) {
   EXPECT_TRUE(same(to_grey(colour, "c"), grey));
   EXPECT_TRUE(same(to_grey(with_alpha, "a"), grey));
   EXPECT_TRUE(same(to_grey(wide, "w"), grey));
+}
+
+TEST_F(ImageDecoding, TakesAnImageOfALogForWhatMrptMakesOfIt) {
+  cv::Mat colour(48, 64, CV_8UC3);
+  cv::randu(colour, 0, 255);  // saturated: the luminance of the JPEG is another grey
+  std::vector<std::uint8_t> jpeg;
+  cv::imencode(".jpg", colour, jpeg);
+  cv::Mat grey;
+  cv::cvtColor(cv::imdecode(jpeg, cv::IMREAD_COLOR), grey, cv::COLOR_BGR2GRAY);
+  GreyImage decoded = decode_grey_by_colour(jpeg, "record 3");
+  const cv::Mat pixels(48, 64, CV_8U, decoded.row(0));
+  EXPECT_EQ(cv::norm(pixels, grey, cv::NORM_INF), 0.0);
 }
 
 TEST_F(ImageDecoding, RefusesACutJpegInsteadOfFillingItWithGrey) {

@@ -1,4 +1,4 @@
-#include "camera_view.h"
+#include "oneac/observations/camera_view.h"
 
 #include "oneac/base/error.h"
 #include "oneac/mrpt_compat/observations.h"
@@ -8,9 +8,9 @@
 
 #include <algorithm>
 #include <cctype>
-#include <charconv>
 #include <cmath>
-#include <stdexcept>
+#include <cstdint>
+#include <utility>
 
 namespace oneac {
 namespace {
@@ -18,11 +18,20 @@ namespace {
 using mrpt::obs::CObservationImage;
 using mrpt::obs::CObservationStereoImages;
 
-constexpr const char* kGiveCalibration = "give one with --calibration FILE[:SECTION]";
+constexpr const char* kGiveCalibration =
+    "give one with --calibration FILE[:SECTION], or set the observations' cameraParams";
+constexpr const char* kGiveTheirs =
+    "rectify the images and give one with --calibration FILE[:SECTION], or set the observations' "
+    "cameraParams";
 constexpr double kRotationTolerance = 1e-3;      // poses stored in single precision are far better
 constexpr std::uint32_t kLargestSide = 1000000;  // [px]; more is damage
+// A rectified pair.
+constexpr double kParallel = 1e-3;  // [rad] between its cameras
+constexpr double kShortest = 1e-3;  // [m] of the baseline
+constexpr double kSideways = 0.01;  // [-] of the baseline, off the X axis
+constexpr double kSamePixel = 0.1;  // [px] between the calibrations
 
-// MRPT's own conversions throw at a pose that is damaged; check_cameras() has refused those.
+// MRPT's own conversions throw at a pose that is damaged.
 Eigen::Isometry3d isometry_of(const mrpt::poses::CPose3D& pose) {
   const auto R = pose.getRotationMatrix();
   Eigen::Isometry3d T = Eigen::Isometry3d::Identity();
@@ -41,32 +50,28 @@ Eigen::Isometry3d isometry_of(const mrpt::poses::CPose3DQuat& pose) {
   return T;
 }
 
-void require_pose(const Eigen::Isometry3d& T, const char* whose) {
+bool is_sound(const Eigen::Isometry3d& T) {
   const Eigen::Matrix3d R = T.linear();
   const double defect = (R.transpose() * R - Eigen::Matrix3d::Identity()).cwiseAbs().maxCoeff();
-  const bool rotates = defect < kRotationTolerance && R.determinant() > 0.0;
-  if (rotates && T.translation().allFinite()) return;
-  throw std::runtime_error(std::string("the pose of ") + whose + " is damaged");
+  return defect < kRotationTolerance && R.determinant() > 0.0 && T.translation().allFinite();
 }
 
-// The image that GuardedStream took out of the record.
-std::shared_ptr<const LogImage> image_of(const mrpt::img::CImage& image, const LogImages& images) {
-  static const auto kNone = std::make_shared<const LogImage>();
-  if (!image.isExternallyStored()) return kNone;
-  const std::string& number = image.getExternalStorageFile();
-  std::size_t index = images.size();
-  std::from_chars(number.data(), number.data() + number.size(), index);
-  return index < images.size() ? images[index] : kNone;
+std::vector<CameraView> halves_of(const CObservationStereoImages& pair) {
+  CameraView left{pair.sensorLabel, CameraView::Side::left,       &pair.imageLeft,
+                  &pair.leftCamera, isometry_of(pair.cameraPose), Eigen::Isometry3d::Identity()};
+  if (!compat::is_set(pair.hasImageRight)) return {std::move(left)};
+  CameraView right = left;
+  right.side = CameraView::Side::right;
+  right.pixels = &pair.imageRight;
+  right.calibration = &pair.rightCamera;
+  right.T_left_right = isometry_of(pair.rightCameraPose);
+  return {std::move(left), std::move(right)};
 }
 
-void append_pair(const CObservationStereoImages& pair, const LogImages& images,
-                 std::vector<CameraView>& views) {
-  const auto T_vehicle_left = isometry_of(pair.cameraPose);
-  views.push_back({pair.sensorLabel, CameraView::Side::left, image_of(pair.imageLeft, images),
-                   &pair.leftCamera, T_vehicle_left, Eigen::Isometry3d::Identity()});
-  if (!compat::is_set(pair.hasImageRight)) return;
-  views.push_back({pair.sensorLabel, CameraView::Side::right, image_of(pair.imageRight, images),
-                   &pair.rightCamera, T_vehicle_left, isometry_of(pair.rightCameraPose)});
+bool is_like(const mrpt::img::TCamera& right, const PinholeCamera& left) {
+  const double off = std::abs(right.fx() - left.fx) + std::abs(right.fy() - left.fy) +
+                     std::abs(right.cx() - left.cx) + std::abs(right.cy() - left.cy);
+  return off < kSamePixel;
 }
 
 }  // namespace
@@ -101,27 +106,25 @@ Eigen::Isometry3d CameraView::offset_in_pair(bool images_rectified) const {
   return parallel;
 }
 
-std::vector<CameraView> camera_views(const RawlogRecord& record) {
-  std::vector<CameraView> views;
-  const mrpt::obs::CObservation* observation = record.observation.get();
-  if (const auto* pair = dynamic_cast<const CObservationStereoImages*>(observation)) {
-    append_pair(*pair, *record.images, views);
-  } else if (const auto* mono = dynamic_cast<const CObservationImage*>(observation)) {
-    views.push_back({mono->sensorLabel, CameraView::Side::mono,
-                     image_of(mono->image, *record.images), &mono->cameraParams,
-                     isometry_of(mono->cameraPose), Eigen::Isometry3d::Identity()});
-  }
-  return views;
+// A damaged pose has entries that are not finite, or none of a rotation.
+bool CameraView::has_sound_pose() const {
+  return is_sound(T_vehicle_sensor) && is_sound(T_left_right);
 }
 
-void check_cameras(const mrpt::obs::CObservation& observation) {
+std::vector<CameraView> camera_views(const mrpt::obs::CObservation& observation) {
   if (const auto* pair = dynamic_cast<const CObservationStereoImages*>(&observation)) {
-    require_pose(isometry_of(pair->cameraPose), "the left camera");
-    if (compat::is_set(pair->hasImageRight))
-      require_pose(isometry_of(pair->rightCameraPose), "the right camera");
-  } else if (const auto* mono = dynamic_cast<const CObservationImage*>(&observation)) {
-    require_pose(isometry_of(mono->cameraPose), "the camera");
+    return halves_of(*pair);
   }
+  const auto* mono = dynamic_cast<const CObservationImage*>(&observation);
+  if (mono == nullptr) return {};
+  return {{mono->sensorLabel, CameraView::Side::mono, &mono->image, &mono->cameraParams,
+           isometry_of(mono->cameraPose), Eigen::Isometry3d::Identity()}};
+}
+
+std::string damaged_pose(const CameraView& view) {
+  if (view.side == CameraView::Side::mono) return "the pose of the camera is damaged";
+  const bool left = view.side == CameraView::Side::left || !is_sound(view.T_vehicle_sensor);
+  return std::string("the pose of the ") + (left ? "left" : "right") + " camera is damaged";
 }
 
 PinholeCamera to_pinhole(const mrpt::img::TCamera& camera, const std::string& where) {
@@ -136,7 +139,7 @@ PinholeCamera to_pinhole(const mrpt::img::TCamera& camera, const std::string& wh
   const bool usable = std::isfinite(pinhole.fx + pinhole.fy + pinhole.cx + pinhole.cy) &&
                       pinhole.fx > 0.0 && pinhole.fy > 0.0 && camera.ncols < kLargestSide &&
                       camera.nrows < kLargestSide;
-  if (!usable) throw InputError(where, "the log carries no calibration", kGiveCalibration);
+  if (!usable) throw InputError(where, "it carries no calibration", kGiveCalibration);
   if (camera.distortion == DistortionModel::none) return pinhole;
   const auto& k = camera.dist;  // k1 k2 p1 p2 k3, then the rational model's k4 k5 k6
   const auto beyond = k.begin() + static_cast<std::ptrdiff_t>(pinhole.distortion.size());
@@ -144,11 +147,23 @@ PinholeCamera to_pinhole(const mrpt::img::TCamera& camera, const std::string& wh
   const bool supported = camera.distortion == DistortionModel::plumb_bob && finite &&
                          std::all_of(beyond, k.end(), [](double v) { return v == 0.0; });
   if (!supported) {
-    throw InputError(where, "the lens model is not plumb-bob with k1 k2 p1 p2 k3",
-                     "rectify the images and " + std::string(kGiveCalibration));
+    throw InputError(where, "the lens model is not plumb-bob with k1 k2 p1 p2 k3", kGiveTheirs);
   }
   std::copy(k.begin(), beyond, pinhole.distortion.begin());
   return pinhole;
+}
+
+std::optional<double> rectified_baseline(const CameraView& right, const PinholeCamera& left,
+                                         bool overridden) {
+  if (left.is_distorted() || (!overridden && !is_like(*right.calibration, left))) {
+    return std::nullopt;
+  }
+  const Eigen::Isometry3d T = right.offset_in_pair(true);
+  const Eigen::Vector3d t = T.translation();
+  const bool parallel = Eigen::AngleAxisd(T.linear()).angle() < kParallel;
+  const bool beside = t.x() > kShortest && t.tail<2>().norm() < kSideways * t.x();
+  if (!parallel || !beside) return std::nullopt;
+  return t.x();
 }
 
 }  // namespace oneac

@@ -1,7 +1,8 @@
-#include "image_decoding.h"
+#include "oneac/observations/image_decoding.h"
 
 #include "oneac/base/error.h"
 
+#include <opencv2/core.hpp>
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 
@@ -135,13 +136,7 @@ std::optional<std::size_t> claimed_pixels(const Bytes& bytes) {
   return std::nullopt;
 }
 
-}  // namespace
-
-cv::Mat decode_grey_file(const std::filesystem::path& file) {
-  return decode_grey_bytes(read_bytes(file), file.string());
-}
-
-cv::Mat decode_grey_bytes(const Bytes& bytes, const std::string& name) {
+GreyImage decoded(const Bytes& bytes, const std::string& name, int flags) {
   if (bytes.empty()) throw InputError(name, "the image file is empty", kCopyImage);
   if (is_cut_jpeg(bytes)) throw InputError(name, "the image ends early", kCopyImage);
   const auto pixel_count = claimed_pixels(bytes);
@@ -154,8 +149,7 @@ cv::Mat decode_grey_bytes(const Bytes& bytes, const std::string& name) {
   }
   cv::Mat pixels;
   try {
-    constexpr int kAsStored = cv::IMREAD_ANYDEPTH | cv::IMREAD_IGNORE_ORIENTATION;
-    pixels = cv::imdecode(bytes, cv::IMREAD_GRAYSCALE | kAsStored);
+    pixels = cv::imdecode(bytes, flags | cv::IMREAD_ANYDEPTH | cv::IMREAD_IGNORE_ORIENTATION);
   } catch (const cv::Exception&) {
     pixels.release();
   }
@@ -163,7 +157,21 @@ cv::Mat decode_grey_bytes(const Bytes& bytes, const std::string& name) {
   return to_grey(pixels, name);
 }
 
-cv::Mat to_grey(const cv::Mat& pixels, const std::string& name) {
+}  // namespace
+
+GreyImage decode_grey_file(const std::filesystem::path& file) {
+  return decode_grey_bytes(read_bytes(file), file.string());
+}
+
+GreyImage decode_grey_bytes(const Bytes& bytes, const std::string& name) {
+  return decoded(bytes, name, cv::IMREAD_GRAYSCALE);
+}
+
+GreyImage decode_grey_by_colour(const Bytes& bytes, const std::string& name) {
+  return decoded(bytes, name, cv::IMREAD_ANYCOLOR);
+}
+
+GreyImage to_grey(const cv::Mat& pixels, const std::string& name) {
   const bool known_depth = pixels.depth() == CV_8U || pixels.depth() == CV_16U;
   const int channels = pixels.channels();
   if (pixels.empty() || !known_depth || (channels != 1 && channels != 3 && channels != 4)) {
@@ -178,7 +186,7 @@ cv::Mat to_grey(const cv::Mat& pixels, const std::string& name) {
     grey.convertTo(narrow, CV_8U, k16To8Bit);
     grey = narrow;
   }
-  return grey;
+  return GreyImage(ImageView{grey.data, grey.cols, grey.rows, static_cast<int>(grey.step)});
 }
 
 }  // namespace oneac

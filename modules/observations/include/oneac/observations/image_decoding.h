@@ -1,0 +1,34 @@
+#pragma once
+
+#include "oneac/base/image.h"
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace cv {
+class Mat;
+}
+
+namespace oneac {
+
+/// Reads a JPEG, PNG, BMP, PGM or PPM file as 8-bit grey (colour, 16-bit and alpha are converted;
+/// no rotation by EXIF). A colour JPEG gives the luminance that it stores.
+/// @throws InputError naming the file when it cannot be read, decoded, or ends early
+[[nodiscard]] GreyImage decode_grey_file(const std::filesystem::path& file);
+
+/// The same for the content of such a file.
+[[nodiscard]] GreyImage decode_grey_bytes(const std::vector<std::uint8_t>& bytes,
+                                          const std::string& name);
+
+/// The same for an image that is stored in a log: decoded in colour and converted by to_grey(), as
+/// of an observation that MRPT has decoded.
+[[nodiscard]] GreyImage decode_grey_by_colour(const std::vector<std::uint8_t>& bytes,
+                                              const std::string& name);
+
+/// Converts decoded pixels (1, 3 or 4 channels in OpenCV's order, 8 or 16 bit) to 8-bit grey.
+/// @throws InputError naming the image when it is empty or of another kind
+[[nodiscard]] GreyImage to_grey(const cv::Mat& pixels, const std::string& name);
+
+}  // namespace oneac

@@ -1,0 +1,98 @@
+#pragma once
+
+#include "oneac/geometry/camera_frame.h"
+#include "oneac/observations/camera_reader.h"
+#include "oneac/observations/sensor_readings.h"
+
+#include <array>
+#include <cstddef>
+#include <limits>
+#include <optional>
+#include <string>
+
+namespace oneac {
+
+/// Why an observation gave nothing, or an image of the camera no frame.
+enum class PassedOver {
+  kOtherClass,   ///< neither image nor IMU nor GPS
+  kOtherSensor,  ///< of another camera, IMU or GPS receiver than the one that is followed
+  kMissing,      ///< an image without pixels, or whose file is not there
+  kOutOfOrder,   ///< an image not later than the one before
+  kUnstamped,    ///< a reading of IMU or GPS without time stamp
+  kUnusable,     ///< a reading without acceleration or speed: void, damaged, or of another kind
+};
+inline constexpr std::size_t kReasons = 6;
+/// "of another sensor": completes "observation passed over: it is …" or "has …".
+[[nodiscard]] const char* to_string(PassedOver reason);
+
+/// What became of the observations so far.
+struct IntakeCounts {
+  std::size_t images = 0;         ///< gave a frame
+  std::size_t accelerations = 0;  ///< readings of the IMU taken
+  std::size_t speeds = 0;         ///< readings of the GPS taken
+  std::array<std::size_t, kReasons> passed_over{};
+
+  [[nodiscard]] std::size_t of(PassedOver reason) const {
+    return passed_over[static_cast<std::size_t>(reason)];
+  }
+};
+
+/// A speed over ground at a moment.
+struct SpeedReading {
+  double time_s = 0.0;  ///< [s] of the GPS epoch
+  double speed = 0.0;   ///< [m/s]
+};
+
+/// What an observation holds for a front-end: at most one of the three, or a reason for none.
+struct Intake {
+  std::optional<CameraFrame> frame;
+  std::optional<ImuSample> inertial;  ///< has an acceleration
+  std::optional<SpeedReading> speed;
+  std::optional<PassedOver> passed_over;
+};
+
+/// What to take in.
+struct IntakeOptions {
+  std::string camera;  ///< as of CameraView::matches(); empty: that of the first image
+  CameraReaderOptions reader;
+};
+
+/// Observations as they come, one by one: the live counterpart of RawlogSource, with the same
+/// CameraReader, readings and refusals.
+///
+/// One camera, one IMU and one GPS receiver are followed: of each the first that can be used, the
+/// camera by its label where one is asked for; of a stereo observation the left one. What cannot be
+/// used of IMU and GPS is passed over and counted; an image of the camera that exists and cannot be
+/// used is refused by an exception. It counts as an image of the camera in `index` and changes
+/// nothing else, so that feeding may go on.
+class ObservationIntake {
+ public:
+  explicit ObservationIntake(IntakeOptions options);
+
+  /// @throws InputError in the words of RawlogSource: what CameraReader refuses, a damaged pose, an
+  ///         image that cannot be decoded
+  [[nodiscard]] Intake take(const mrpt::obs::CObservation& observation);
+  [[nodiscard]] const IntakeCounts& counts() const { return counts_; }
+
+ private:
+  [[nodiscard]] Intake take_inertial(const mrpt::obs::CObservation& observation);
+  [[nodiscard]] Intake take_speed(const mrpt::obs::CObservation& observation);
+  [[nodiscard]] Intake take_image(const mrpt::obs::CObservation& observation);
+  [[nodiscard]] Intake read(const CameraView& view, const CameraView* right,
+                            const mrpt::obs::CObservation& observation);
+  void add_pixels(const CameraView& view, const CameraView* right, const std::string& where,
+                  CameraFrame& frame) const;
+  [[nodiscard]] bool is_followed(const CameraView& view) const;
+  [[nodiscard]] Intake pass(PassedOver reason);
+
+  IntakeOptions options_;
+  std::optional<CameraReader> reader_;
+  std::string camera_;  ///< CameraView::name() of the one that is followed
+  std::optional<std::string> imu_, gps_;
+  GpsEpochs epochs_;
+  std::size_t seen_ = 0;                                         ///< images of the camera
+  double last_time_ = -std::numeric_limits<double>::infinity();  ///< [s] of the last frame
+  IntakeCounts counts_;
+};
+
+}  // namespace oneac

@@ -1,0 +1,165 @@
+#include "oneac/observations/observation_intake.h"
+
+#include "pixels.h"
+
+#include "oneac/base/error.h"
+#include "oneac/base/thread_clock.h"
+
+#include <mrpt/img/CImage.h>
+#include <mrpt/obs/CObservationGPS.h>
+#include <mrpt/obs/CObservationIMU.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <utility>
+
+namespace oneac {
+namespace {
+
+using mrpt::obs::CObservation;
+using mrpt::obs::CObservationGPS;
+using mrpt::obs::CObservationIMU;
+
+bool is_stamped(const CObservation& observation) {
+  return observation.timestamp != INVALID_TIMESTAMP;
+}
+
+/// Whether the label is the one that is followed, or none is yet.
+bool follows(const std::optional<std::string>& followed, const std::string& label) {
+  return !followed || *followed == label;
+}
+
+void require_sound_pose(const CameraView& view, const std::string& where) {
+  if (view.has_sound_pose()) return;
+  throw InputError(where, damaged_pose(view), "correct it where the observation is made");
+}
+
+std::string short_name(const CameraView& view, const std::string& where) {
+  if (!view.pixels->isExternallyStored()) return where;
+  return std::filesystem::path(name_of(*view.pixels, where)).filename().string();
+}
+
+}  // namespace
+
+const char* to_string(PassedOver reason) {
+  switch (reason) {
+    case PassedOver::kOtherClass:
+      return "neither an image nor a reading of IMU or GPS";
+    case PassedOver::kOtherSensor:
+      return "of another camera, IMU or GPS receiver than the one in use";
+    case PassedOver::kMissing:
+      return "an image that is not there";
+    case PassedOver::kOutOfOrder:
+      return "an image not later than the one before";
+    case PassedOver::kUnstamped:
+      return "a reading without time stamp";
+    case PassedOver::kUnusable:
+      return "a reading without usable acceleration or speed";
+  }
+  return "unknown";
+}
+
+ObservationIntake::ObservationIntake(IntakeOptions options) : options_(std::move(options)) {}
+
+Intake ObservationIntake::take(const CObservation& observation) {
+  if (dynamic_cast<const CObservationIMU*>(&observation) != nullptr) {
+    return take_inertial(observation);
+  }
+  if (dynamic_cast<const CObservationGPS*>(&observation) != nullptr) {
+    return take_speed(observation);
+  }
+  return take_image(observation);
+}
+
+Intake ObservationIntake::pass(PassedOver reason) {
+  ++counts_.passed_over[static_cast<std::size_t>(reason)];
+  Intake nothing;
+  nothing.passed_over = reason;
+  return nothing;
+}
+
+Intake ObservationIntake::take_inertial(const CObservation& observation) {
+  if (!is_stamped(observation)) return pass(PassedOver::kUnstamped);
+  if (!follows(imu_, observation.sensorLabel)) return pass(PassedOver::kOtherSensor);
+  Intake intake;
+  intake.inertial = imu_sample(observation);
+  if (!intake.inertial || !intake.inertial->acceleration) return pass(PassedOver::kUnusable);
+  imu_ = observation.sensorLabel;
+  ++counts_.accelerations;
+  return intake;
+}
+
+// A position alone has no use here; it may begin the epoch of the speed that follows.
+Intake ObservationIntake::take_speed(const CObservation& observation) {
+  if (!is_stamped(observation)) return pass(PassedOver::kUnstamped);
+  if (!follows(gps_, observation.sensorLabel)) return pass(PassedOver::kOtherSensor);
+  const auto reading = gps_reading(observation);
+  if (!reading) return pass(PassedOver::kUnusable);
+  gps_ = observation.sensorLabel;
+  const double time_s = epochs_.add(*reading).time_s;
+  if (!reading->speed) return pass(PassedOver::kUnusable);
+  Intake intake;
+  intake.speed = SpeedReading{time_s, *reading->speed};
+  ++counts_.speeds;
+  return intake;
+}
+
+bool ObservationIntake::is_followed(const CameraView& view) const {
+  if (reader_) return view.name() == camera_;
+  // Of a pair the left one, unless the right one is asked for.
+  const bool any = options_.camera.empty() && view.side != CameraView::Side::right;
+  return any || (!options_.camera.empty() && view.matches(options_.camera));
+}
+
+Intake ObservationIntake::take_image(const CObservation& observation) {
+  const auto views = camera_views(observation);
+  if (views.empty()) return pass(PassedOver::kOtherClass);
+  const auto view = std::find_if(views.begin(), views.end(),
+                                 [this](const CameraView& v) { return is_followed(v); });
+  if (view == views.end()) return pass(PassedOver::kOtherSensor);
+  const auto right = std::find_if(
+      view + 1, views.end(), [](const CameraView& v) { return v.side == CameraView::Side::right; });
+  const bool wanted = options_.reader.stereo && right != views.end();
+  return read(*view, wanted ? &*right : nullptr, observation);
+}
+
+// The checks stand in the order in which RawlogSource makes them.
+Intake ObservationIntake::read(const CameraView& view, const CameraView* right,
+                               const CObservation& observation) {
+  CameraFrame frame;
+  frame.index = seen_++;
+  const std::string where = "camera '" + view.name() + "': image " + std::to_string(frame.index);
+  require_sound_pose(view, where);
+  if (right != nullptr) require_sound_pose(*right, where);
+  if (!reader_) {
+    reader_.emplace(CameraDescription::of(view), options_.reader, where);
+    camera_ = view.name();
+  }
+  reader_->check_calibration(view, where);
+  if (!is_there(*view.pixels)) return pass(PassedOver::kMissing);
+  const double baseline = right != nullptr ? reader_->baseline(*right, where) : 0.0;
+  frame.time_s = CameraReader::time_of(observation.timestamp, where);
+  if (!(frame.time_s > last_time_)) return pass(PassedOver::kOutOfOrder);
+  frame.T_vehicle_cam = reader_->mount(view);
+  if (right != nullptr && is_there(*right->pixels)) frame.baseline_m = baseline;
+  frame.name = short_name(view, where);
+  add_pixels(view, right, where, frame);
+  last_time_ = frame.time_s;
+  ++counts_.images;
+  Intake intake;
+  intake.frame = std::move(frame);
+  return intake;
+}
+
+void ObservationIntake::add_pixels(const CameraView& view, const CameraView* right,
+                                   const std::string& where, CameraFrame& frame) const {
+  const StageTimer timer(frame.decode_ms);
+  const auto rectified = [this](const CameraView& of, const std::string& its) {
+    return reader_->rectify(grey_of(*of.pixels, its), name_of(*of.pixels, its));
+  };
+  frame.image = rectified(view, where);
+  if (frame.baseline_m > 0.0) frame.right = rectified(*right, where + " (right)");
+  frame.camera = reader_->rectified_camera(frame.image);
+}
+
+}  // namespace oneac

@@ -1,0 +1,107 @@
+#include "oneac/observations/observation_intake.h"
+
+#include "log_maker.h"
+
+#include "oneac/test_support/temporary_folder.h"
+
+#include <gtest/gtest.h>
+#include <mrpt/obs/CObservationComment.h>
+#include <mrpt/obs/CObservationIMU.h>
+
+#include <opencv2/imgcodecs.hpp>
+
+namespace oneac {
+namespace {
+
+IntakeOptions following(const std::string& camera) {
+  IntakeOptions options;
+  options.camera = camera;
+  return options;
+}
+
+/// @throws std::bad_optional_access when the observation gives none
+CameraFrame frame_of(ObservationIntake& intake, const mrpt::obs::CObservation& observation) {
+  return intake.take(observation).frame.value();
+}
+
+TEST(ObservationIntake, MakesAFrameOfAnImage) {
+  ObservationIntake intake({});
+  const auto frame = frame_of(intake, *test::stored_image("CAM", 2.0, test::ramp(40)));
+  EXPECT_NEAR(frame.time_s, test::kStart + 2.0, 1e-6);
+  EXPECT_EQ(frame.image.row(20)[30], 70);
+  EXPECT_EQ(frame.camera.width, test::kWidth);
+  EXPECT_NEAR(frame.T_vehicle_cam.linear()(0, 2), 1.0, 1e-12);  // x forward in the log
+  EXPECT_EQ(intake.counts().images, 1U);
+}
+
+TEST(ObservationIntake, FollowsTheFirstCameraOrTheOneAskedFor) {
+  ObservationIntake first({}), second(following("B"));
+  const auto a = test::stored_image("A", 0, test::ramp(0));
+  const auto b = test::stored_image("B", 0, test::ramp(0));
+  EXPECT_TRUE(first.take(*a).frame);
+  EXPECT_EQ(first.take(*b).passed_over, PassedOver::kOtherSensor);
+  EXPECT_EQ(second.take(*a).passed_over, PassedOver::kOtherSensor);
+  EXPECT_TRUE(second.take(*b).frame);
+}
+
+TEST(ObservationIntake, TakesEitherHalfOfAPair) {
+  const TemporaryFolder folder;
+  const std::string base = (folder.path() / "a").string();
+  cv::imwrite(base + "_left.png", test::ramp(10));
+  cv::imwrite(base + "_right.png", test::ramp(20));
+  const auto pair = test::external_pair("PAIR", 0, base);
+  ObservationIntake left({}), right(following("right"));
+  EXPECT_EQ(frame_of(left, *pair).image.row(0)[0], 10);
+  const auto frame = frame_of(right, *pair);
+  EXPECT_EQ(frame.image.row(0)[0], 20);
+  EXPECT_EQ(frame.name, "a_right.png");
+  IntakeOptions options;
+  options.reader.stereo = true;
+  ObservationIntake both(options);
+  const auto stereo = frame_of(both, *pair);
+  EXPECT_EQ(stereo.right.row(0)[0], 20);
+  EXPECT_NEAR(stereo.baseline_m, 0.12, 1e-12);
+}
+
+TEST(ObservationIntake, CountsWhatItPassesOverByReason) {
+  ObservationIntake intake({});
+  EXPECT_TRUE(intake.take(*test::stored_image("CAM", 1.0, test::ramp(0))).frame);
+  const auto reason = [&](const mrpt::obs::CObservation& o) { return intake.take(o).passed_over; };
+  EXPECT_EQ(reason(mrpt::obs::CObservationComment()), PassedOver::kOtherClass);
+  EXPECT_EQ(reason(*test::external_image("CAM", 2.0, "nowhere.png")), PassedOver::kMissing);
+  EXPECT_EQ(reason(*test::stored_image("CAM", 0.5, test::ramp(0))), PassedOver::kOutOfOrder);
+  EXPECT_EQ(reason(*test::gga(0.0, 36.0, -4.0, 1.0)), PassedOver::kUnusable);
+  mrpt::obs::CObservationIMU imu;
+  imu.timestamp = INVALID_TIMESTAMP;
+  EXPECT_EQ(reason(imu), PassedOver::kUnstamped);
+  for (const std::size_t count : {0, 2, 4}) EXPECT_EQ(intake.counts().passed_over.at(count), 1U);
+  // Missing ones and late ones count as images of the camera.
+  EXPECT_EQ(frame_of(intake, *test::stored_image("CAM", 3.0, test::ramp(0))).index, 3U);
+}
+
+TEST(ObservationIntake, GoesOnAfterARefusal) {
+  ObservationIntake intake({});
+  const auto bad = test::stored_image("CAM", 0.0, test::ramp(0));
+  bad->cameraParams.fx(0.0);
+  EXPECT_THROW(static_cast<void>(intake.take(*bad)), InputError);
+  EXPECT_EQ(frame_of(intake, *test::stored_image("CAM", 0.1, test::ramp(0))).index, 1U);
+  const auto unstamped = test::stored_image("CAM", 0.2, test::ramp(0));
+  unstamped->timestamp = INVALID_TIMESTAMP;
+  EXPECT_THROW(static_cast<void>(intake.take(*unstamped)), InputError);
+  EXPECT_TRUE(intake.take(*test::stored_image("CAM", 0.3, test::ramp(0))).frame);
+}
+
+TEST(ObservationIntake, GivesASpeedTheTimeOfItsEpoch) {
+  ObservationIntake intake({});
+  EXPECT_FALSE(intake.take(*test::gga(1.0, 36.0, -4.0, 1.0)).speed);
+  const auto speed = intake.take(*test::rmc(1.2, 10.0, 0.0)).speed;
+  ASSERT_TRUE(speed);
+  EXPECT_NEAR(speed->time_s, test::kStart + 1.0, 1e-6);
+  EXPECT_NEAR(speed->speed, 5.144, 1e-3);
+  const auto other = test::rmc(2.0, 10.0, 0.0);
+  other->sensorLabel = "SPARE";
+  EXPECT_EQ(intake.take(*other).passed_over, PassedOver::kOtherSensor);
+}
+
+}  // namespace
+}  // namespace oneac

@@ -1,0 +1,78 @@
+#include "oneac/observations/sensor_readings.h"
+
+#include "log_maker.h"
+
+#include <gtest/gtest.h>
+#include <mrpt/obs/CObservationIMU.h>
+
+#include <cmath>
+#include <cstring>
+
+namespace oneac {
+namespace {
+
+using mrpt::obs::CObservationIMU;
+
+CObservationIMU imu(double x, double y, double z) {
+  CObservationIMU observation;
+  observation.timestamp = mrpt::Clock::fromDouble(test::kStart);
+  observation.set(mrpt::obs::IMU_X_ACC, x);
+  observation.set(mrpt::obs::IMU_Y_ACC, y);
+  observation.set(mrpt::obs::IMU_Z_ACC, z);
+  return observation;
+}
+
+TEST(ImuSample, IsTurnedIntoTheVehicleFrame) {
+  CObservationIMU observation = imu(0.0, 9.8, 0.0);
+  observation.sensorPose = mrpt::poses::CPose3D(0, 0, 0, 0, 0, M_PI / 2);  // rolled by 90°
+  const auto sample = imu_sample(observation);
+  ASSERT_TRUE(sample && sample->acceleration);
+  EXPECT_NEAR(sample->acceleration->z(), 9.8, 1e-9);
+  EXPECT_FALSE(sample->angular_rate);
+  observation.set(mrpt::obs::IMU_WX, 0.0);
+  observation.set(mrpt::obs::IMU_WY, 0.3);
+  observation.set(mrpt::obs::IMU_WZ, 0.0);
+  EXPECT_NEAR(imu_sample(observation)->angular_rate->z(), 0.3, 1e-9);
+}
+
+TEST(ImuSample, IsEmptyWithoutStampAndForAbsurdNumbers) {
+  CObservationIMU observation = imu(0.0, 0.0, 9.8);
+  observation.timestamp = INVALID_TIMESTAMP;
+  EXPECT_FALSE(imu_sample(observation));
+  for (const double absurd : {std::nan(""), HUGE_VAL, 1e308, -1e4}) {
+    EXPECT_FALSE(imu_sample(imu(0.0, 0.0, absurd))) << absurd;
+  }
+}
+
+// As a damaged log has them: MRPT copies the bytes.
+TEST(ImuSample, TakesADamagedFlagForNotSet) {
+  CObservationIMU observation = imu(0.0, 0.0, 9.8);
+  std::memset(&observation.dataIsPresent[mrpt::obs::IMU_Y_ACC], 2, 1);
+  EXPECT_FALSE(imu_sample(observation));
+}
+
+TEST(GpsReading, HasTheSpeedOfAValidRmcMessage) {
+  auto gps = test::rmc(0.0, 10.0, 90.0);
+  EXPECT_NEAR(gps_reading(*gps)->speed.value(), 5.144, 1e-3);
+  gps->getMsgByClass<mrpt::obs::gnss::Message_NMEA_RMC>().fields.validity_char = 'V';
+  EXPECT_FALSE(gps_reading(*gps));
+  EXPECT_FALSE(gps_reading(*test::rmc(0.0, -5.0, 1e9)));
+  EXPECT_FALSE(gps_reading(*test::rmc(0.0, std::nan(""), std::nan(""))));
+  EXPECT_FALSE(gps_reading(imu(0.0, 0.0, 9.8)));
+}
+
+TEST(GpsEpochs, JoinPositionAndSpeedOfOneSecond) {
+  GpsEpochs epochs;
+  const auto place = [&](const mrpt::obs::CObservationGPS::Ptr& gps) {
+    return epochs.add(gps_reading(*gps).value());
+  };
+  const GpsEpochs::Place position = place(test::gga(0.0, 36.7, -4.4, 30.0));
+  EXPECT_TRUE(position.begins);
+  const GpsEpochs::Place speed = place(test::rmc(0.2, 10.0, 90.0));
+  EXPECT_FALSE(speed.begins);
+  EXPECT_EQ(speed.time_s, position.time_s);
+  EXPECT_TRUE(place(test::rmc(0.4, 10.0, 90.0)).begins);
+}
+
+}  // namespace
+}  // namespace oneac
