@@ -3,6 +3,8 @@
 #include "patch_geometry.h"
 #include "window_exchange.h"
 
+#include "oneac/base/median.h"
+#include "oneac/geometry/angles.h"
 #include "oneac/geometry/angular_errors.h"
 
 #include <algorithm>
@@ -11,7 +13,6 @@
 namespace oneac {
 namespace {
 
-constexpr double kDegree = 3.14159265358979323846 / 180.0;
 // A landmark whose depth is less certain than this carries no length.
 constexpr double kUsefulDepth = 0.3;
 // [-] of a depth by stereo: a tenth of a pixel of bad rectification at ten pixels of disparity,
@@ -25,12 +26,6 @@ double relative_sigma(const Track& track) {
 /// Seen now, at a depth that is known.
 bool is_sure(const Track& track) {
   return track.alive && track.has_depth && relative_sigma(track) < kUsefulDepth;
-}
-
-double median(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
 }
 
 }  // namespace
@@ -88,7 +83,7 @@ bool LocalMap::needs_keyframe(const RelativePose& T_cam_map, double seconds) con
   if (parallax.empty()) return true;
   if (rotation_error(T_cam_map.R, last.T_cam_map.R) > options_.max_rotation_deg * kDegree)
     return true;
-  const double moved = median(std::move(parallax));
+  const double moved = upper_median(std::move(parallax));
   if (moved > options_.min_parallax_deg * kDegree) return true;
   return seconds > options_.max_seconds && moved > 3.0 * sigma_;
 }

@@ -2,6 +2,7 @@
 
 #include "log_reader.h"
 
+#include "oneac/geometry/angles.h"
 #include "oneac/mrpt_compat/observations.h"
 
 #include <mrpt/obs/CObservationGPS.h>
@@ -16,7 +17,6 @@ namespace {
 
 constexpr double kMergeWithin = 0.5;       // [s] GGA and RMC of one epoch at the usual 1 Hz
 constexpr double kKnot = 1852.0 / 3600.0;  // [m/s]
-constexpr double kDegree = M_PI / 180.0;   // [rad]
 // What a damaged reading exceeds; the comparisons are false for NaN.
 constexpr double kFastest = 1e3;                 // [m/s]
 constexpr double kFullTurn = 2.0 * M_PI + 1e-9;  // [rad]

@@ -2,6 +2,7 @@
 
 #include "gc_ransac_loop.h"
 
+#include "oneac/base/require.h"
 #include "oneac/solvers/homography_2ac.h"
 #include "oneac/solvers/homography_4pc.h"
 
@@ -10,8 +11,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <stdexcept>
-#include <string>
 
 namespace oneac {
 namespace {
@@ -81,10 +80,7 @@ class HomographySpace : public internal::ModelSpace {
 RobustHomography fit_homography(AcSpan acs, double threshold, HomographyMethod method,
                                 std::uint64_t seed, const GcRansacOptions& options) {
   options.validate();
-  if (!(threshold > 0.0)) {
-    throw std::invalid_argument("fit_homography: threshold = " + std::to_string(threshold) +
-                                ", must be positive");
-  }
+  require(threshold > 0.0, "fit_homography: threshold", threshold, "positive");
   RobustHomography result;
   result.inliers.assign(acs.size(), false);
   result.cost = static_cast<double>(acs.size());

@@ -3,6 +3,7 @@
 #include "consensus_kernels.h"
 #include "levelled_acs.h"
 
+#include "oneac/geometry/angles.h"
 #include "oneac/robust/pitch_sweep.h"
 #include "oneac/solvers/relpose_1ac_front_wall.h"
 #include "oneac/solvers/relpose_1ac_side_wall.h"
@@ -17,7 +18,6 @@
 namespace oneac::internal {
 namespace {
 
-constexpr double kDegree = 3.14159265358979323846 / 180.0;
 // Points of the first score: with 80 % outliers still a dozen that the true motion explains.
 constexpr std::size_t kSample = 64;
 // Width of the first score against the threshold: half a step of the sweep moves the points by
