@@ -67,31 +67,51 @@ set(ONEAC_RELEASE_OPTIONS_program ${ONEAC_COLD_OPTIONS})
 set(ONEAC_HEADERS_test ${ONEAC_HEADERS_kernel} <gtest/gtest.h>)
 set(ONEAC_RELEASE_OPTIONS_test ${ONEAC_COLD_OPTIONS})
 
-# oneac_precompile(TARGET KIND): the kind's headers, compiled with its first target. The presets
-# "clang" and "tidy" do without and see that each file includes what it uses.
-function(oneac_precompile target kind)
-  get_property(holder GLOBAL PROPERTY ONEAC_HEADERS_${kind}_HOLDER)
-  if(holder)
-    target_precompile_headers(${target} REUSE_FROM ${holder})
-  else()
-    target_link_libraries(${target} PRIVATE $<BUILD_INTERFACE:Eigen3::Eigen>)
-    target_precompile_headers(${target} PRIVATE ${ONEAC_HEADERS_${kind}})
-    set_property(GLOBAL PROPERTY ONEAC_HEADERS_${kind}_HOLDER ${target})
-  endif()
-  if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
-    target_compile_options(${target} PRIVATE -fpch-preprocess)  # ccache asks for it
-  endif()
-endfunction()
+set(ONEAC_HEADER_LIBRARIES_kernel Eigen3::Eigen)
+set(ONEAC_HEADER_LIBRARIES_kernel_no_errno Eigen3::Eigen)
+set(ONEAC_HEADER_LIBRARIES_cold Eigen3::Eigen)
+set(ONEAC_HEADER_LIBRARIES_mrpt Eigen3::Eigen mrpt::obs mrpt::containers)
+set(ONEAC_HEADER_LIBRARIES_cold_mrpt ${ONEAC_HEADER_LIBRARIES_mrpt})
+set(ONEAC_HEADER_LIBRARIES_program Eigen3::Eigen mrpt::containers CLI11::CLI11)
+set(ONEAC_HEADER_LIBRARIES_test Eigen3::Eigen GTest::gtest)
+set(ONEAC_EXECUTABLE_KINDS program test)  # their code is not position independent
 
-function(oneac_kind target kind)
+function(oneac_compile_options target kind)
   foreach(option IN LISTS ONEAC_OPTIONS_${kind})
     target_compile_options(${target} PRIVATE ${option})
   endforeach()
   foreach(option IN LISTS ONEAC_RELEASE_OPTIONS_${kind})
     target_compile_options(${target} PRIVATE $<$<CONFIG:Release>:${option}>)
   endforeach()
+  if(ONEAC_PRECOMPILED_HEADERS AND CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
+    target_compile_options(${target} PRIVATE -fpch-preprocess)  # ccache asks for it
+  endif()
+endfunction()
+
+# oneac_headers(KIND): the target oneac_headers_KIND, whose precompiled header the kind shares.
+function(oneac_headers kind)
+  if(TARGET oneac_headers_${kind})
+    return()
+  endif()
+  set(source "${PROJECT_BINARY_DIR}/headers/${kind}.cpp")
+  file(CONFIGURE OUTPUT "${source}" CONTENT "// Nothing but the headers of ${kind}.\n")
+  add_library(oneac_headers_${kind} OBJECT "${source}")
+  target_link_libraries(oneac_headers_${kind} PRIVATE ${ONEAC_HEADER_LIBRARIES_${kind}})
+  if(NOT kind IN_LIST ONEAC_EXECUTABLE_KINDS)
+    set_target_properties(oneac_headers_${kind} PROPERTIES POSITION_INDEPENDENT_CODE ON)
+  endif()
+  target_precompile_headers(oneac_headers_${kind} PRIVATE ${ONEAC_HEADERS_${kind}})
+  oneac_compile_options(oneac_headers_${kind} ${kind})
+  target_link_libraries(oneac_headers_${kind} PRIVATE oneac_options)
+endfunction()
+
+# oneac_kind(TARGET KIND): optimises as the kind, shares its headers. The presets "clang" and "tidy"
+# do without these and see that each file includes what it uses.
+function(oneac_kind target kind)
+  oneac_compile_options(${target} ${kind})
   if(ONEAC_PRECOMPILED_HEADERS)
-    oneac_precompile(${target} ${kind})
+    oneac_headers(${kind})
+    target_precompile_headers(${target} REUSE_FROM oneac_headers_${kind})
   endif()
 endfunction()
 
