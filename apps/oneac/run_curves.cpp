@@ -2,6 +2,8 @@
 
 #include "reference_track.h"
 
+#include "oneac/geometry/angles.h"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -9,7 +11,6 @@
 namespace oneac::app {
 namespace {
 
-constexpr double kDegree = 3.14159265358979323846 / 180.0;
 constexpr double kNone = std::numeric_limits<double>::quiet_NaN();  // leaves a gap
 // [m] over which the scale is compared: far more than the centimetres that a reference is good to.
 constexpr double kScaleStretch = 20.0;

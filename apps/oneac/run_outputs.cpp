@@ -5,6 +5,7 @@
 #include "oneac/base/atomic_file.h"
 #include "oneac/base/error.h"
 #include "oneac/frontend/map_formats.h"
+#include "oneac/geometry/angles.h"
 
 #include <algorithm>
 #include <stdexcept>
@@ -13,7 +14,6 @@ namespace oneac::app {
 
 namespace {
 
-constexpr double kDegree = 3.14159265358979323846 / 180.0;
 constexpr int kTimeDecimals = 6, kAngleDecimals = 4;
 
 std::string format_tilts(const std::vector<FrameResult>& frames) {

@@ -2,6 +2,7 @@
 
 #include "oneac/base/version.h"
 #include "oneac/evaluation/report.h"
+#include "oneac/geometry/angles.h"
 
 #include <nlohmann/json.hpp>
 
@@ -18,8 +19,6 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 namespace fs = std::filesystem;
-
-constexpr double kDegree = 3.14159265358979323846 / 180.0;
 
 std::string find_reference(const RunOptions& options) {
   if (!options.run.reference.empty()) return options.run.reference;

@@ -2,6 +2,7 @@
 
 #include "oneac/base/error.h"
 #include "oneac/features/ac_tracker.h"
+#include "oneac/geometry/angles.h"
 #include "oneac/geometry/essential.h"
 
 #include <opencv2/core.hpp>
@@ -21,7 +22,6 @@ namespace {
 constexpr double kWidestPicture = 960.0;  // [px] as wide as the page shows it
 constexpr std::size_t kApart = 5;         // frames: half a second at the usual 10 Hz
 constexpr int kJpegQuality = 80;          // no visible loss at this size
-constexpr double kDegree = 3.14159265358979323846 / 180.0;
 
 /// Takes the first `share` of the candidates that are not chosen yet, the worst first.
 class Chooser {

@@ -1,6 +1,7 @@
 #include "text.h"
 
 #include "oneac/comparison/tables.h"
+#include "oneac/geometry/angles.h"
 
 #include <Eigen/Geometry>
 
@@ -12,8 +13,6 @@ namespace {
 using internal::decimals;
 using internal::shortest;
 using Number = std::optional<double>;
-
-constexpr double kDegree = 3.14159265358979323846 / 180.0;
 
 std::string name_of_log(const ComparisonData& data, std::size_t log) {
   const auto found = std::find_if(data.logs.begin(), data.logs.end(),

@@ -1,6 +1,7 @@
 #include "oneac/comparison/given_tilt.h"
 
 #include "oneac/evaluation/statistics.h"
+#include "oneac/geometry/angles.h"
 
 #include <cmath>
 #include <utility>
@@ -8,7 +9,6 @@
 namespace oneac {
 namespace {
 
-constexpr double kDegree = 3.14159265358979323846 / 180.0;
 // cos 25°: beyond it the car manoeuvres, and the elevation of t mixes with roll.
 constexpr double kMainlyForward = 0.9;
 // [rad] 15°: a direction of travel further from the given horizon is no drive.

@@ -5,6 +5,7 @@
 
 #include "oneac/comparison/plots.h"
 #include "oneac/evaluation/html_page.h"
+#include "oneac/geometry/angles.h"
 
 #include <algorithm>
 #include <limits>
@@ -15,7 +16,6 @@ namespace {
 using internal::decimals;
 using internal::three_digits;
 
-constexpr double kDegree = 3.14159265358979323846 / 180.0;
 constexpr double kInfinite = std::numeric_limits<double>::infinity();
 // Rows of the drill-down; beyond it a browser grows slow, and pairs.csv has them all.
 constexpr std::size_t kMostPairs = 400;

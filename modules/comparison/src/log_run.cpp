@@ -1,6 +1,7 @@
 #include "log_run.h"
 
 #include "oneac/base/thread_clock.h"
+#include "oneac/geometry/angles.h"
 
 #include <algorithm>
 #include <set>
@@ -8,7 +9,6 @@
 namespace oneac::internal {
 namespace {
 
-constexpr double kDegree = 3.14159265358979323846 / 180.0;
 constexpr const char* kTiltMethod = "1ac_pooled";
 
 InitialiserInput input_of(const PairAcs& pair, const Eigen::Matrix3d& R_level_cam,

@@ -1,6 +1,7 @@
 #include "oneac/comparison/summary.h"
 
 #include "oneac/evaluation/pair_errors.h"
+#include "oneac/geometry/angles.h"
 
 #include <algorithm>
 #include <cmath>
@@ -9,7 +10,6 @@
 namespace oneac {
 namespace {
 
-constexpr double kDegree = 3.14159265358979323846 / 180.0;
 constexpr double kInfinite = std::numeric_limits<double>::infinity();
 
 using Number = std::optional<double>;

@@ -2,6 +2,7 @@
 
 #include "feature_mask.h"
 
+#include "oneac/base/require.h"
 #include "oneac/features/feature_options.h"
 #include "oneac/features/sift_extractor.h"
 #include "oneac/features/vlfeat_extractor.h"
@@ -10,16 +11,6 @@
 #include <stdexcept>
 
 namespace oneac {
-namespace {
-
-void require(bool good, const char* field, double value, const char* bound) {
-  if (good) return;
-  throw std::invalid_argument(std::string(field) + " = " + std::to_string(value) + ", must be " +
-                              bound);
-}
-
-}  // namespace
-
 void MatchOptions::validate() const {
   require(snn_ratio > 0.0 && snn_ratio <= 1.0, "match.snn_ratio", snn_ratio, "in (0, 1]");
   require(max_shift_px > 0.0, "match.max_shift_px", max_shift_px, "positive");

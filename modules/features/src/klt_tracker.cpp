@@ -5,11 +5,14 @@
 #include "standing.h"
 #include "with_quality.h"
 
+#include "oneac/base/median.h"
+
 #include <Eigen/LU>
 
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
+#include <utility>
 
 namespace oneac::internal {
 namespace {
@@ -28,9 +31,7 @@ double median_flow(const std::vector<KltTrack>& tracks,
   for (std::size_t i = 0; i < tracks.size(); ++i)
     if (matches[i]) flows.push_back((matches[i]->warp.centre - tracks[i].u).norm());
   if (flows.empty()) return 0.0;
-  const auto middle = flows.begin() + static_cast<std::ptrdiff_t>(flows.size() / 2);
-  std::nth_element(flows.begin(), middle, flows.end());
-  return *middle;
+  return upper_median(std::move(flows));
 }
 
 Correspondence correspondence_of(const KltTrack& track, const PatchMatch& match) {
@@ -84,7 +85,6 @@ TrackedPair KltTracker::stand() {
     PatchMatch same;
     same.warp.centre = track.u;
     pair.correspondences.push_back(correspondence_of(track, same));
-    history_.extend(track.id, frame_, track.u, Eigen::Matrix2d::Identity());
   }
   return pair;
 }
@@ -118,7 +118,6 @@ void KltTracker::add_rematches(const std::shared_ptr<const KltFrame>& now, Match
     KltTrack track;
     track.id = next_id_++;
     track.u = again.u1;
-    history_.start(track.id, frame_ - 1, track.u);
     tracks_.push_back(std::move(track));
     matches.push_back(again.match);
   }
@@ -142,7 +141,6 @@ TrackedPair KltTracker::take(const KltFrame& now, const MotionPrediction& motion
     if (!taken.is_free(u2, kMerge * options_.klt.min_distance_px)) continue;
     taken.add(u2);
     if (!rests) pair.correspondences.push_back(correspondence_of(track, *matches[i]));
-    history_.extend(track.id, frame_, u2, matches[i]->warp.M);
     track.A = matches[i]->warp.M;
     track.flow = u2 - track.u;
     track.u = u2;
@@ -151,7 +149,6 @@ TrackedPair KltTracker::take(const KltFrame& now, const MotionPrediction& motion
     kept.push_back(std::move(track));
   }
   tracks_ = std::move(kept);
-  history_.end_all_but(frame_);
   return pair;
 }
 
@@ -183,7 +180,6 @@ void KltTracker::start_track(const KltFrame& now, const Corner& corner) {
   track.id = next_id_++;
   track.u = corner.u;
   track.reference_is_here = true;
-  history_.start(track.id, frame_, corner.u);
   tracks_.push_back(std::move(track));
 }
 
@@ -218,15 +214,9 @@ void KltTracker::replenish(const KltFrame& now) {
   }
 }
 
-std::optional<AffineCorrespondence> KltTracker::between(std::uint64_t track, std::size_t frame1,
-                                                        std::size_t frame2) const {
-  return history_.between(track, frame1, frame2);
-}
-
 void KltTracker::reset() {
   anchor_.reset();
   tracks_.clear();
-  history_.clear();
   static_points_.clear();
   frame_ = 0;
 }

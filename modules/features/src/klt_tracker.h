@@ -5,7 +5,6 @@
 #include "patch_flow.h"
 #include "rematch.h"
 #include "static_points.h"
-#include "track_history.h"
 
 #include "oneac/features/ac_tracker.h"
 
@@ -28,8 +27,6 @@ class KltTracker : public AcTracker {
   [[nodiscard]] std::shared_ptr<const FrameFeatures> prepare(const ImageView& image) const override;
   [[nodiscard]] TrackedPair advance(std::shared_ptr<const FrameFeatures> now,
                                     const MotionHint& hint) override;
-  [[nodiscard]] std::optional<AffineCorrespondence> between(std::uint64_t track, std::size_t frame1,
-                                                            std::size_t frame2) const override;
   void reset() override;
 
  private:
@@ -55,7 +52,6 @@ class KltTracker : public AcTracker {
   Rematcher rematcher_;
   std::shared_ptr<const KltFrame> anchor_;
   std::vector<KltTrack> tracks_;  ///< oldest first
-  TrackHistory history_;
   StaticPoints static_points_;
   std::uint64_t next_id_ = 0;
   std::size_t frame_ = 0;  ///< index of the frame given last

@@ -3,8 +3,11 @@
 #include "patch_flow.h"
 #include "with_quality.h"
 
+#include "oneac/base/median.h"
+
 #include <algorithm>
 #include <stdexcept>
+#include <utility>
 
 namespace oneac::internal {
 namespace {
@@ -16,9 +19,7 @@ double median_shift(const TrackedPair& pair) {
   std::vector<double> shifts;
   shifts.reserve(pair.size());
   for (const auto& ac : pair.correspondences) shifts.push_back((ac.x2 - ac.x1).norm());
-  const auto middle = shifts.begin() + static_cast<std::ptrdiff_t>(shifts.size() / 2);
-  std::nth_element(shifts.begin(), middle, shifts.end());
-  return *middle;
+  return upper_median(std::move(shifts));
 }
 
 }  // namespace
@@ -44,8 +45,6 @@ std::uint64_t MatchedTracker::carry_on(const AffineCorrespondence& matched,
                                        const std::map<Place, std::uint64_t>& known) {
   const auto found = known.find({matched.x1.x(), matched.x1.y()});
   const std::uint64_t id = found != known.end() ? found->second : next_id_++;
-  if (found == known.end()) history_.start(id, frame_ - 1, aligned.x1);
-  history_.extend(id, frame_, aligned.x2, aligned.A);
   tracks_[{matched.x2.x(), matched.x2.y()}] = id;
   return id;
 }
@@ -54,7 +53,6 @@ TrackedPair MatchedTracker::advance(std::shared_ptr<const FrameFeatures> now, co
   const auto frame = std::dynamic_pointer_cast<const Frame>(now);
   if (!frame) throw std::invalid_argument("advance: the frame was not prepared by this tracker");
   TrackedPair pair;
-  frame_ = last_ ? frame_ + 1 : 0;
   if (last_) {
     const std::map<Place, std::uint64_t> known = std::move(tracks_);
     tracks_.clear();
@@ -75,23 +73,15 @@ TrackedPair MatchedTracker::advance(std::shared_ptr<const FrameFeatures> now, co
       const std::uint64_t track = carry_on(ac, aligned, known);
       pair.correspondences.push_back(with_quality(aligned, track, quality));
     }
-    history_.end_all_but(frame_);
     pair.standing = median_shift(pair) < options_.klt.standing_px;
   }
   last_ = frame;
   return pair;
 }
 
-std::optional<AffineCorrespondence> MatchedTracker::between(std::uint64_t track, std::size_t frame1,
-                                                            std::size_t frame2) const {
-  return history_.between(track, frame1, frame2);
-}
-
 void MatchedTracker::reset() {
   last_.reset();
   tracks_.clear();
-  history_.clear();
-  frame_ = 0;
 }
 
 }  // namespace oneac::internal

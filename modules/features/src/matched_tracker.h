@@ -2,7 +2,6 @@
 
 #include "feature_mask.h"
 #include "image_pyramid.h"
-#include "track_history.h"
 
 #include "oneac/features/ac_tracker.h"
 #include "oneac/features/feature_options.h"
@@ -24,8 +23,6 @@ class MatchedTracker : public AcTracker {
   [[nodiscard]] std::shared_ptr<const FrameFeatures> prepare(const ImageView& image) const override;
   [[nodiscard]] TrackedPair advance(std::shared_ptr<const FrameFeatures> now,
                                     const MotionHint& hint) override;
-  [[nodiscard]] std::optional<AffineCorrespondence> between(std::uint64_t track, std::size_t frame1,
-                                                            std::size_t frame2) const override;
   void reset() override;
 
  private:
@@ -47,9 +44,7 @@ class MatchedTracker : public AcTracker {
   bool align_;
   std::shared_ptr<const Frame> last_;
   std::map<Place, std::uint64_t> tracks_;  ///< by the place in the last frame
-  TrackHistory history_;
   std::uint64_t next_id_ = 0;
-  std::size_t frame_ = 0;
 };
 
 }  // namespace oneac::internal

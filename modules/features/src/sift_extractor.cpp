@@ -1,6 +1,7 @@
 #include "oneac/features/sift_extractor.h"
 
 #include "oneac/features/descriptor_matching.h"
+#include "oneac/geometry/angles.h"
 
 #include <Eigen/Core>
 #include <opencv2/core.hpp>
@@ -13,7 +14,6 @@
 namespace oneac {
 namespace {
 
-constexpr double kDegree = 3.14159265358979323846 / 180.0;
 constexpr int kOctaveLayers = 3;  // Lowe's values
 constexpr double kContrast = 0.04;
 constexpr double kSigma = 1.6;

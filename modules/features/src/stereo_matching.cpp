@@ -1,12 +1,13 @@
 #include "oneac/features/stereo_matching.h"
 
+#include "oneac/base/require.h"
+
 #include <Eigen/Dense>
 
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <stdexcept>
-#include <string>
 
 namespace oneac {
 namespace {
@@ -187,17 +188,12 @@ std::optional<Disparity> match_point(const ImageView& left, const ImageView& rig
 }  // namespace
 
 void StereoMatchOptions::validate() const {
-  const auto require = [](bool good, const char* field, double value, const char* bound) {
-    if (good) return;
-    throw std::invalid_argument(std::string("stereo.") + field + " = " + std::to_string(value) +
-                                ", must be " + bound);
-  };
-  require(max_disparity > 0.0 && max_disparity < 1.0, "max_disparity", max_disparity,
+  require(max_disparity > 0.0 && max_disparity < 1.0, "stereo.max_disparity", max_disparity,
           "between 0 and 1");
-  require(radius_px >= 2 && radius_px <= 50, "radius_px", radius_px, "from 2 to 50");
-  require(min_zncc > 0.0 && min_zncc < 1.0, "min_zncc", min_zncc, "between 0 and 1");
-  require(max_rival > 0.0 && max_rival <= 1.0, "max_rival", max_rival, "from 0 to 1");
-  require(max_row_offset_px > 0.0, "max_row_offset_px", max_row_offset_px, "positive");
+  require(radius_px >= 2 && radius_px <= 50, "stereo.radius_px", radius_px, "from 2 to 50");
+  require(min_zncc > 0.0 && min_zncc < 1.0, "stereo.min_zncc", min_zncc, "between 0 and 1");
+  require(max_rival > 0.0 && max_rival <= 1.0, "stereo.max_rival", max_rival, "from 0 to 1");
+  require(max_row_offset_px > 0.0, "stereo.max_row_offset_px", max_row_offset_px, "positive");
 }
 
 std::vector<std::optional<Disparity>> match_along_rows(const ImageView& left,

@@ -1,9 +1,9 @@
 #include "oneac/geometry/camera.h"
 
+#include "oneac/base/require.h"
+
 #include <algorithm>
 #include <cmath>
-#include <stdexcept>
-#include <string>
 
 namespace oneac {
 
@@ -24,18 +24,13 @@ Eigen::Vector2d PinholeCamera::project(const Eigen::Vector2d& x) const {
 }
 
 void PinholeCamera::validate() const {
-  const auto require = [](bool good, const std::string& field, double value, const char* bound) {
-    if (good) return;
-    throw std::invalid_argument("PinholeCamera." + field + " = " + std::to_string(value) +
-                                ", must be " + bound);
-  };
-  require(width > 0, "width", width, "positive");
-  require(height > 0, "height", height, "positive");
-  require(std::isfinite(fx) && fx > 0.0, "fx", fx, "positive and finite");
-  require(std::isfinite(fy) && fy > 0.0, "fy", fy, "positive and finite");
-  require(std::isfinite(cx), "cx", cx, "finite");
-  require(std::isfinite(cy), "cy", cy, "finite");
-  for (double k : distortion) require(std::isfinite(k), "distortion", k, "finite");
+  require(width > 0, "PinholeCamera.width", width, "positive");
+  require(height > 0, "PinholeCamera.height", height, "positive");
+  require(std::isfinite(fx) && fx > 0.0, "PinholeCamera.fx", fx, "positive and finite");
+  require(std::isfinite(fy) && fy > 0.0, "PinholeCamera.fy", fy, "positive and finite");
+  require(std::isfinite(cx), "PinholeCamera.cx", cx, "finite");
+  require(std::isfinite(cy), "PinholeCamera.cy", cy, "finite");
+  for (double k : distortion) require(std::isfinite(k), "PinholeCamera.distortion", k, "finite");
 }
 
 AffineCorrespondence normalise(const AffineCorrespondence& ac_px, const PinholeCamera& first,

@@ -65,7 +65,7 @@ TEST(PinholeCamera, ValidationNamesFieldValueAndBound) {
   PinholeCamera camera = wide_camera();
   camera.fy = -2.0;
   const std::string complaint = complaint_about(camera);
-  EXPECT_EQ(complaint, "PinholeCamera.fy = -2.000000, must be positive and finite");
+  EXPECT_EQ(complaint, "PinholeCamera.fy = -2, must be positive and finite");
 }
 
 TEST(PinholeCamera, ValidationLooksAtEveryField) {

@@ -5,6 +5,7 @@
 #include "log_reader.h"
 #include "reference_collector.h"
 
+#include "oneac/base/median.h"
 #include "oneac/mrpt_compat/observations.h"
 #include "oneac/rawlog/calibration.h"
 
@@ -28,10 +29,9 @@ std::optional<double> rate_of(Times times) {
   const std::size_t lag = std::min(kRateLag, times.size() - 1);
   Times spans;
   for (std::size_t i = lag; i < times.size(); ++i) spans.push_back(times[i] - times[i - lag]);
-  const auto middle = spans.begin() + static_cast<std::ptrdiff_t>(spans.size() / 2);
-  std::nth_element(spans.begin(), middle, spans.end());
-  if (*middle <= 0.0) return std::nullopt;
-  return static_cast<double>(lag) / *middle;
+  const double span = upper_median(std::move(spans));
+  if (span <= 0.0) return std::nullopt;
+  return static_cast<double>(lag) / span;
 }
 
 /// Everything that grows during the pass.

@@ -4,6 +4,7 @@
 #include "number_table.h"
 
 #include "oneac/base/error.h"
+#include "oneac/geometry/angles.h"
 #include "oneac/rawlog/calibration.h"
 
 #include <algorithm>
@@ -17,7 +18,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr double kDegree = M_PI / 180.0;
 constexpr double kKnot = 1852.0 / 3600.0;       // [m/s]
 constexpr const char* kGpsLabel = "GPS_DELUO";  // as in the dataset's own logs
 constexpr const char* kImuLabel = "XSensMTi";

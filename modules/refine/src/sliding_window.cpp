@@ -3,10 +3,12 @@
 #include "window_adjustment.h"
 #include "window_problem.h"
 
+#include "oneac/base/require.h"
+
 #include <ceres/solver.h>
 
 #include <cmath>
-#include <stdexcept>
+#include <string>
 
 namespace oneac {
 namespace {
@@ -15,28 +17,21 @@ namespace {
 // standard deviation of one unknown, and the next keyframe goes on from there.
 constexpr double kFunctionTolerance = 1e-4;
 
-void require(bool good, const char* field, double value, const char* bound) {
-  if (good) return;
-  throw std::invalid_argument(std::string("window.") + field + " = " + std::to_string(value) +
-                              ", must be " + bound);
-}
-
 void require_consistent(const SlidingWindow& window) {
-  require(window.focal_px > 0.0, "focal_px", window.focal_px, "positive");
+  require(window.focal_px > 0.0, "window.focal_px", window.focal_px, "positive");
   for (const WindowLandmark& landmark : window.landmarks) {
-    require(landmark.anchor < window.views.size(), "anchor", static_cast<double>(landmark.anchor),
-            "the index of a view");
+    require(landmark.anchor < window.views.size(), "window.anchor",
+            static_cast<double>(landmark.anchor), "the index of a view");
   }
   for (const WindowObservation& seen : window.observations) {
-    require(seen.view < window.views.size(), "view", static_cast<double>(seen.view),
+    require(seen.view < window.views.size(), "window.view", static_cast<double>(seen.view),
             "the index of a view");
-    require(seen.landmark < window.landmarks.size(), "landmark", static_cast<double>(seen.landmark),
-            "the index of a landmark");
+    require(seen.landmark < window.landmarks.size(), "window.landmark",
+            static_cast<double>(seen.landmark), "the index of a landmark");
   }
 }
 
-WindowRefineResult adjust_with_affinities(SlidingWindow& window,
-                                          const WindowRefineOptions& options) {
+WindowRefineResult adjust_with_ceres(SlidingWindow& window, const WindowRefineOptions& options) {
   WindowRefineResult result;
   WindowProblem problem(window, options);
   if (problem.empty()) return result;
@@ -53,8 +48,8 @@ WindowRefineResult adjust_with_affinities(SlidingWindow& window,
 }  // namespace
 
 void WindowRefineOptions::validate() const {
-  const auto positive = [](const char* field, double value) {
-    require(value > 0.0 && std::isfinite(value), field, value, "positive and finite");
+  const auto positive = [](const std::string& field, double value) {
+    require(value > 0.0 && std::isfinite(value), "window." + field, value, "positive and finite");
   };
   positive("point_noise_px", point_noise_px);
   positive("affine_noise", affine_noise);
@@ -62,17 +57,19 @@ void WindowRefineOptions::validate() const {
   positive("affine_gate_chi2", affine_gate_chi2);
   positive("suspension_deg", suspension_deg);
   positive("travel_elevation_deg", travel_elevation_deg);
-  require(max_iterations >= 1, "max_iterations", max_iterations, "at least 1");
+  require(solver == "fast" || solver == "ceres" || solver == "ceres+affine", "window.solver",
+          solver, "fast, ceres or ceres+affine");
+  require(max_iterations >= 1, "window.max_iterations", max_iterations, "at least 1");
 }
 
 WindowRefineResult refine_window(SlidingWindow& window, const WindowRefineOptions& options) {
   options.validate();
   require_consistent(window);
   // Points move without the affinities: those are looked at once, at the end.
-  if (options.affine_terms) static_cast<void>(fit_patches(window, options));
-  WindowRefineResult result = options.affine_terms
-                                  ? adjust_with_affinities(window, options)
-                                  : adjust_points(window, options, kFunctionTolerance);
+  if (options.affine_terms()) static_cast<void>(fit_patches(window, options));
+  WindowRefineResult result = options.solver == "fast"
+                                  ? adjust_points(window, options, kFunctionTolerance)
+                                  : adjust_with_ceres(window, options);
   result.affine_consistent = fit_patches(window, options);
   return result;
 }

@@ -3,6 +3,7 @@
 #include "epipolar_costs.h"
 #include "two_view_information.h"
 
+#include "oneac/base/require.h"
 #include "oneac/geometry/essential.h"
 
 #include <ceres/loss_function.h>
@@ -17,7 +18,6 @@
 #include <cmath>
 #include <deque>
 #include <optional>
-#include <stdexcept>
 #include <string>
 
 namespace oneac {
@@ -26,12 +26,6 @@ namespace {
 // Relative change of the cost that ends the search: of a cost near 300 it is 3e-4, a fiftieth of a
 // standard deviation of the pose.
 constexpr double kFunctionTolerance = 1e-6;
-
-void require(bool good, const char* field, double value, const char* bound) {
-  if (good) return;
-  throw std::invalid_argument(std::string("refine.") + field + " = " + std::to_string(value) +
-                              ", must be " + bound);
-}
 
 /// Why the pair cannot be refined; empty when it can.
 std::optional<RefineStatus> refusal(const std::vector<AffineCorrespondence>& acs,
@@ -170,24 +164,25 @@ const char* to_string(RefineStatus status) {
 }
 
 void RefineOptions::validate() const {
-  const auto positive = [](const char* field, double value) {
-    require(value > 0.0 && std::isfinite(value), field, value, "positive and finite");
+  const auto positive = [](const std::string& field, double value) {
+    require(value > 0.0 && std::isfinite(value), "refine." + field, value, "positive and finite");
   };
   positive("point_noise_px", point_noise_px);
   positive("affine_noise", affine_noise);
   positive("loss_sigmas", loss_sigmas);
-  require(affine_terms_below >= 0, "affine_terms_below", affine_terms_below, "at least 0");
-  require(affine_gate_sigmas >= 0.0, "affine_gate_sigmas", affine_gate_sigmas, "at least 0");
-  require(max_iterations >= 1, "max_iterations", max_iterations, "at least 1");
-  require(min_inliers >= 5, "min_inliers", min_inliers, "at least 5");
+  require(affine_terms_below >= 0, "refine.affine_terms_below", affine_terms_below, "at least 0");
+  require(affine_gate_sigmas >= 0.0, "refine.affine_gate_sigmas", affine_gate_sigmas, "at least 0");
+  require(max_iterations >= 1, "refine.max_iterations", max_iterations, "at least 1");
+  require(min_inliers >= 5, "refine.min_inliers", min_inliers, "at least 5");
 }
 
 RefineResult refine_two_view(const std::vector<AffineCorrespondence>& acs,
                              const std::vector<bool>& inliers, const RelativePose& start,
                              double focal_px, const RefineOptions& options) {
   options.validate();
-  require(focal_px > 0.0 && std::isfinite(focal_px), "focal_px", focal_px, "positive and finite");
-  require(inliers.size() == acs.size(), "inliers", static_cast<double>(inliers.size()),
+  require(focal_px > 0.0 && std::isfinite(focal_px), "refine.focal_px", focal_px,
+          "positive and finite");
+  require(inliers.size() == acs.size(), "refine.inliers", static_cast<double>(inliers.size()),
           "one per correspondence");
   RefineResult result;
   result.affine_consistent.assign(acs.size(), false);

@@ -1,6 +1,7 @@
 #include "two_view_information.h"
 
 #include "oneac/geometry/essential.h"
+#include "oneac/geometry/robust_loss.h"
 
 #include <Eigen/Cholesky>
 #include <Eigen/Geometry>
@@ -37,7 +38,7 @@ struct Sandwich {
     Eigen::Matrix<double, N, 5> J;
     for (int k = 0; k < N; ++k) J.row(k) = pose_derivative(term.dE[k], pose) * basis;
     const double c2 = loss_sigmas * loss_sigmas;
-    const double weight = 1.0 / (1.0 + term.r.squaredNorm() / c2);  // ρ' of the Cauchy loss
+    const double weight = cauchy_weight(term.r.squaredNorm(), c2);
     const Eigen::Matrix<double, 1, 5> rJ = term.r.transpose() * J;
     const Matrix5 squared_slope = weight * weight * rJ.transpose() * rJ;
     M += weight * J.transpose() * J - 2.0 / c2 * squared_slope;

@@ -2,6 +2,8 @@
 
 #include "window_problem.h"
 
+#include "oneac/geometry/robust_loss.h"
+
 #include <Eigen/Geometry>
 
 #include <cmath>
@@ -153,7 +155,7 @@ void WindowEquations::linearise_row(const Row& row, const Transfer& transfer,
   const Eigen::Vector3d y = transfer.R * ray + rho * transfer.t;
   const Eigen::Vector2d u = y.head<2>() / y.z();
   Eigen::Vector2d r = (u - row.x) * row.inverse_sigma;
-  const double root = std::sqrt(1.0 / (1.0 + r.squaredNorm() / c2_));
+  const double root = std::sqrt(cauchy_weight(r.squaredNorm(), c2_));
   r *= root;
   const double scale = root * row.inverse_sigma / y.z();
   Eigen::Matrix<double, 3, 2> D;  // both rows of Dπ, as columns

@@ -1,6 +1,8 @@
 #include "patch_transfer.h"
 #include "window_problem.h"
 
+#include "oneac/geometry/robust_loss.h"
+
 #include <cmath>
 #include <vector>
 
@@ -27,7 +29,7 @@ Eigen::Matrix<double, 6, 6> view_information(const SlidingWindow& window, std::s
     if (!transfer.in_front()) continue;
     const double sigma = point_sigma(seen, window, options);
     const double r2 = ((transfer.point() - seen.x) / sigma).squaredNorm();
-    const double weight = 1.0 / (1.0 + r2 / c2);  // ρ' of the Cauchy loss
+    const double weight = cauchy_weight(r2, c2);
     const auto d = transfer.point_derivative();
     const Eigen::Vector2d j_rho = d.patch.col(2) / sigma;
     if (seen.view == view) {

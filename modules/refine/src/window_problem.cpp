@@ -2,6 +2,8 @@
 
 #include "patch_transfer.h"
 
+#include "oneac/geometry/angles.h"
+
 #include <algorithm>
 #include <cmath>
 #include <memory>
@@ -9,7 +11,6 @@
 namespace oneac {
 namespace {
 
-constexpr double kDegree = 3.14159265358979323846 / 180.0;
 // [map lengths] two views closer than this did not travel: no elevation to speak of.
 constexpr double kShortestTravel = 1e-6;
 
@@ -74,7 +75,7 @@ WindowProblem::WindowProblem(const SlidingWindow& window, const WindowRefineOpti
     if (seen.view == window.landmarks[seen.landmark].anchor) continue;
     if (!is_in_front(window, seen)) continue;
     is_seen_[seen.landmark] = true;
-    if (options.affine_terms && seen.affine_consistent) is_patch_[seen.landmark] = true;
+    if (options.affine_terms() && seen.affine_consistent) is_patch_[seen.landmark] = true;
   }
   for (const WindowObservation& seen : window.observations) add_observation(window, seen, options);
   add_planar_priors(window, options);

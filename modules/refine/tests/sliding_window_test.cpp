@@ -22,10 +22,10 @@ double position_error(const SlidingWindow& a, const SlidingWindow& b) {
 TEST(SlidingWindow, RecoversPosesDepthsAndNormalsFromExactData) {
   SceneGenerator generator(81);
   const WindowScene scene = street_window(generator, 6, 80, {});
-  for (const bool affine : {false, true}) {
+  for (const char* solver : {"fast", "ceres", "ceres+affine"}) {
     SlidingWindow window = disturbed_window(generator, scene.truth);
     WindowRefineOptions options;
-    options.affine_terms = affine;
+    options.solver = solver;
     options.max_iterations = 50;
     const WindowRefineResult result = refine_window(window, options);
     ASSERT_TRUE(result.usable);
@@ -162,6 +162,9 @@ TEST(SlidingWindow, RefusesMisuse) {
   WindowRefineOptions options;
   options.point_noise_px = 0.0;
   SlidingWindow window;
+  EXPECT_THROW(static_cast<void>(refine_window(window, options)), std::invalid_argument);
+  options = {};
+  options.solver = "affine";
   EXPECT_THROW(static_cast<void>(refine_window(window, options)), std::invalid_argument);
   window.observations.push_back({});
   EXPECT_THROW(static_cast<void>(refine_window(window, {})), std::invalid_argument);

@@ -1,19 +1,20 @@
 #include "oneac/robust/ground_scale.h"
 
+#include "oneac/base/require.h"
+#include "oneac/geometry/angles.h"
 #include "oneac/geometry/homography.h"
+#include "oneac/geometry/robust_loss.h"
 #include "oneac/geometry/triangulation.h"
 
 #include <Eigen/Dense>
 
 #include <algorithm>
 #include <cmath>
-#include <stdexcept>
-#include <string>
 
 namespace oneac {
 namespace {
 
-constexpr double kDegree = 3.14159265358979323846 / 180.0;
+constexpr double kPlaneCut = 2.5;     // [bandwidths] scale of the loss and bound of the support
 constexpr int kPlaneIterations = 10;  // IRLS; the weights settle after four to six
 // Smallest height of the camera above a ground point [baselines]: a step of more than 20 camera
 // heights, 30 m from one frame to the next, is not driving.
@@ -100,7 +101,7 @@ struct RoadPlane {
   [[nodiscard]] double distance() const { return d / std::sqrt(1.0 + a * a + b * b); }
 };
 
-/// Iteratively reweighted least squares with a Geman–McClure weight at 2.5 bandwidths.
+/// Iteratively reweighted least squares with a Geman–McClure weight.
 RoadPlane fit_plane(const std::vector<Candidate>& candidates, double height,
                     const GroundScaleOptions& options) {
   RoadPlane plane;
@@ -119,13 +120,13 @@ RoadPlane fit_plane(const std::vector<Candidate>& candidates, double height,
       // the plane's height.
       const double width = std::hypot(options.bandwidth, c.relative_sigma) * plane.d;
       const double z = (c.X.y() - plane.height_at(c.X)) / width;
-      const double robust = c.weight / std::pow(1.0 + z * z / 6.25, 2);
+      const double robust = c.weight / geman_mcclure_divisor(z * z, squared(kPlaneCut));
       const Eigen::Vector3d row(1.0, c.X.x(), c.X.z());
       H += robust / (width * width) * row * row.transpose();
       g += robust / (width * width) * row * c.X.y();
       chi2 += robust * z * z;
       weights += robust;
-      if (std::abs(z) < 2.5 && c.weight > 0.3) ++plane.support;
+      if (std::abs(z) < kPlaneCut && c.weight > 0.3) ++plane.support;
     }
     factor.compute(H);
     const Eigen::Vector3d solution = factor.solve(g);
@@ -143,19 +144,14 @@ RoadPlane fit_plane(const std::vector<Candidate>& candidates, double height,
 }  // namespace
 
 void GroundScaleOptions::validate() const {
-  const auto require = [](bool good, const char* field, double value, const char* bound) {
-    if (good) return;
-    throw std::invalid_argument(std::string("ground_scale.") + field + " = " +
-                                std::to_string(value) + ", must be " + bound);
-  };
-  require(max_distance > 0.0, "max_distance", max_distance, "positive");
-  require(max_side > 0.0, "max_side", max_side, "positive");
-  require(affine_tolerance > 0.0, "affine_tolerance", affine_tolerance, "positive");
-  require(bandwidth > 0.0, "bandwidth", bandwidth, "positive");
-  require(min_support >= 1, "min_support", min_support, "at least 1");
-  require(max_uncertainty > 0.0, "max_uncertainty", max_uncertainty, "positive");
-  require(plane_tilt_deg > 0.0, "plane_tilt_deg", plane_tilt_deg, "positive");
-  require(cross_fall_deg > 0.0, "cross_fall_deg", cross_fall_deg, "positive");
+  require(max_distance > 0.0, "ground_scale.max_distance", max_distance, "positive");
+  require(max_side > 0.0, "ground_scale.max_side", max_side, "positive");
+  require(affine_tolerance > 0.0, "ground_scale.affine_tolerance", affine_tolerance, "positive");
+  require(bandwidth > 0.0, "ground_scale.bandwidth", bandwidth, "positive");
+  require(min_support >= 1, "ground_scale.min_support", min_support, "at least 1");
+  require(max_uncertainty > 0.0, "ground_scale.max_uncertainty", max_uncertainty, "positive");
+  require(plane_tilt_deg > 0.0, "ground_scale.plane_tilt_deg", plane_tilt_deg, "positive");
+  require(cross_fall_deg > 0.0, "ground_scale.cross_fall_deg", cross_fall_deg, "positive");
 }
 
 std::optional<GroundScale> ground_scale(AcSpan acs, const std::vector<bool>& inliers,

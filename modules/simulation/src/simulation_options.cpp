@@ -1,18 +1,19 @@
 #include "oneac/simulation/simulation_options.h"
 
+#include "oneac/base/require.h"
+
 #include <cmath>
 #include <sstream>
-#include <stdexcept>
+#include <string>
 
 namespace oneac {
 namespace {
 
 void require_within(const char* field, double value, double low, double high) {
-  if (std::isfinite(value) && value >= low && value <= high) return;
-  std::ostringstream message;
-  message << "SimulationOptions." << field << " = " << value << ", must be within " << low
-          << " ... " << high;
-  throw std::invalid_argument(message.str());
+  std::ostringstream bound;
+  bound << "within " << low << " ... " << high;
+  require(std::isfinite(value) && value >= low && value <= high,
+          std::string("SimulationOptions.") + field, value, bound.str());
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 #include "street_renderer.h"
 #include "suspension.h"
 
+#include "oneac/geometry/angles.h"
 #include "oneac/geometry/camera_frame.h"
 #include "oneac/geometry/leveling.h"
 
@@ -23,7 +24,6 @@ using simulation::Suspension;
 
 namespace {
 
-constexpr double kDegree = 0.017453292519943295;
 constexpr double kGravity = 9.80665;          // [m/s²]
 constexpr double kGpsRate = 1.0;              // [Hz] Málaga's receiver
 constexpr double kImuRate = 100.0;            // [Hz] Málaga's unit

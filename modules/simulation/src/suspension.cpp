@@ -2,13 +2,14 @@
 
 #include "random_numbers.h"
 
+#include "oneac/geometry/angles.h"
+
 #include <algorithm>
 #include <cmath>
 
 namespace oneac::simulation {
 namespace {
 
-constexpr double kDegree = 0.017453292519943295;
 constexpr double kStep_s = 0.005;                             // fine against the oscillation
 constexpr double kFrequency = 2.0 * 3.141592653589793 * 1.3;  // [rad/s] bodies of cars: 1 to 1.5 Hz
 constexpr double kDamping = 0.35;                             // of critical; usual dampers

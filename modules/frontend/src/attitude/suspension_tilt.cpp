@@ -2,6 +2,8 @@
 
 #include "mainly_forward.h"
 
+#include "oneac/geometry/angles.h"
+
 #include <Eigen/Dense>
 
 #include <algorithm>
@@ -10,7 +12,6 @@
 namespace oneac {
 namespace {
 
-constexpr double kDegree = 3.14159265358979323846 / 180.0;
 // [rad] pitch that braking and speeding up give a car on its springs, 1σ: 3° per g at 0.3 g.
 constexpr double kSprings = 1.0 * kDegree;
 // [rad] roll that bends give it, 1σ: 5° per g at 0.2 g, and how long it lasts [s].

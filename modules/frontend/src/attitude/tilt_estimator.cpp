@@ -2,6 +2,10 @@
 
 #include "mainly_forward.h"
 
+#include "oneac/base/median.h"
+#include "oneac/geometry/angles.h"
+#include "oneac/geometry/robust_loss.h"
+
 #include <Eigen/Geometry>
 
 #include <algorithm>
@@ -11,7 +15,6 @@
 namespace oneac {
 namespace {
 
-constexpr double kDegree = 3.14159265358979323846 / 180.0;
 // [rad] a direction of travel more than 15° above or below the given horizon is no drive.
 constexpr double kLargestElevation = 0.26;
 // [rad] 1σ of a pitch or roll that somebody states: sensor poses are a degree off.
@@ -31,18 +34,12 @@ constexpr double kRollCut = 3.0;
 constexpr int kRollIterations = 5;
 constexpr double kMadToSigma = 1.4826;
 
-double median(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
-
 /// [rad] 1σ of the turns about the lateral axis that a camera with this roll does not explain.
 double pitching_beside(double roll, const std::vector<Eigen::Vector3d>& turns) {
   std::vector<double> off;
   off.reserve(turns.size());
   for (const Eigen::Vector3d& turn : turns) off.push_back(std::abs(turn.x() - roll * turn.y()));
-  return std::max(kMadToSigma * median(std::move(off)), kLeastPitching);
+  return std::max(kMadToSigma * upper_median(std::move(off)), kLeastPitching);
 }
 
 }  // namespace
@@ -93,11 +90,11 @@ double TiltEstimator::pitch_correction(double& sigma) const {
     // A camera pitched up sees its travel below the axis (Y down > 0).
     elevations.push_back(std::atan2(travel.y(), travel.z()));
   }
-  const double middle = median(elevations);
+  const double middle = upper_median(elevations);
   std::vector<double> off;
   off.reserve(elevations.size());
   for (const double elevation : elevations) off.push_back(std::abs(elevation - middle));
-  const double scatter = std::max(kMadToSigma * median(std::move(off)), kLeastScatter);
+  const double scatter = std::max(kMadToSigma * upper_median(std::move(off)), kLeastScatter);
   const double count = static_cast<double>(elevations.size());
   sigma = 1.0 / std::sqrt(count / (scatter * scatter) + 1.0 / (prior * prior));
   const double trust = unknown ? 1.0 : count / (count + options_.prior_steps);
@@ -120,7 +117,7 @@ double TiltEstimator::roll_correction(double& sigma) const {
     for (const Eigen::Vector3d& turn : level) {
       // A camera that leans right by ρ sees a turn ω about the upright as (ω sin ρ, ω cos ρ).
       const double z = (turn.x() - roll * turn.y()) / pitching;
-      const double robust = 1.0 / std::pow(1.0 + z * z / (kRollCut * kRollCut), 2);
+      const double robust = 1.0 / geman_mcclure_divisor(z * z, kRollCut * kRollCut);
       const double weight = robust / (pitching * pitching);
       information += weight * turn.y() * turn.y();
       sum += weight * turn.x() * turn.y();

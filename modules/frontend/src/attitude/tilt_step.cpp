@@ -1,11 +1,12 @@
 #include "tilt_step.h"
 
+#include "oneac/geometry/angles.h"
+
 #include <cmath>
 
 namespace oneac {
 namespace {
 
-constexpr double kDegree = 3.14159265358979323846 / 180.0;
 // [rad] 1σ of a direction of travel as images resolve it.
 constexpr double kDirection = 0.2 * kDegree;
 // [m/s] RMS with which a body bounces at the 1.5 Hz of its springs: 0.315 m/s², the most that

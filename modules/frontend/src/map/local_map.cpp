@@ -4,6 +4,8 @@
 #include "scale/length_votes.h"
 #include "window_exchange.h"
 
+#include "oneac/base/median.h"
+#include "oneac/geometry/angles.h"
 #include "oneac/geometry/angular_errors.h"
 
 #include <algorithm>
@@ -12,7 +14,6 @@
 namespace oneac {
 namespace {
 
-constexpr double kDegree = 3.14159265358979323846 / 180.0;
 // A landmark whose depth is less certain than this carries no length.
 constexpr double kUsefulDepth = 0.3;
 double relative_sigma(const Track& track) {
@@ -22,12 +23,6 @@ double relative_sigma(const Track& track) {
 /// Seen now, at a depth that is known.
 bool is_sure(const Track& track) {
   return track.alive && track.has_depth && relative_sigma(track) < kUsefulDepth;
-}
-
-double median(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
 }
 
 }  // namespace
@@ -85,7 +80,7 @@ bool LocalMap::needs_keyframe(const RelativePose& T_cam_map, double seconds) con
   if (parallax.empty()) return true;
   if (rotation_error(T_cam_map.R, last.T_cam_map.R) > options_.max_rotation_deg * kDegree)
     return true;
-  const double moved = median(std::move(parallax));
+  const double moved = upper_median(std::move(parallax));
   if (moved > options_.min_parallax_deg * kDegree) return true;
   return seconds > options_.max_seconds && moved > 3.0 * sigma_;
 }

@@ -1,5 +1,7 @@
 #include "length_votes.h"
 
+#include "oneac/geometry/robust_loss.h"
+
 #include <Eigen/Geometry>
 
 #include <algorithm>
@@ -66,7 +68,7 @@ RobustMean robust_mean(std::vector<LengthVote> votes) {
     for (const LengthVote& vote : votes) {
       const double sigma = vote.sigma(mean.value);
       const double z = (vote.length - mean.value) / sigma;
-      const double robust = 1.0 / ((1.0 + z * z / kCut) * (1.0 + z * z / kCut));
+      const double robust = 1.0 / geman_mcclure_divisor(z * z, kCut);
       const double weight = robust / (sigma * sigma);
       weights += weight;
       sum += weight * vote.length;

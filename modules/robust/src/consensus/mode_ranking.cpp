@@ -2,6 +2,7 @@
 
 #include "consensus/evenly_spaced.h"
 
+#include "oneac/geometry/angles.h"
 #include "oneac/geometry/essential.h"
 #include "oneac/robust/polish.h"
 #include "oneac/robust/rotation_only.h"
@@ -16,7 +17,6 @@
 namespace oneac::internal {
 namespace {
 
-constexpr double kDegree = 3.14159265358979323846 / 180.0;
 // Hypotheses scored again on more points before they are thinned to distinct modes: near-copies of
 // the best one crowd the top.
 constexpr std::size_t kShortList = 128;

@@ -2,11 +2,11 @@
 
 #include "consensus/mode_ranking.h"
 
+#include "oneac/base/require.h"
 #include "oneac/robust/degeneracy.h"
 
 #include <algorithm>
 #include <iterator>
-#include <stdexcept>
 #include <string>
 #include <utility>
 
@@ -40,34 +40,30 @@ RobustResult consensus_of_finite(AcSpan acs, const Eigen::Matrix3d& R_level_cam,
   return result;
 }
 
-void require(bool good, const char* field, double value, const char* bound) {
-  if (good) return;
-  throw std::invalid_argument(std::string("consensus.") + field + " = " + std::to_string(value) +
-                              ", must be " + bound);
-}
-
 }  // namespace
 
 void ConsensusOptions::validate() const {
   const bool some = std::find(pool.on.begin(), pool.on.end(), true) != pool.on.end();
-  require(some, SolverPool::key(0), 0, "true when no other solver is on");
-  require(threshold_px > 0.0, "threshold_px", threshold_px, "positive");
-  require(pitch_sweep_deg >= 0.0 && pitch_sweep_deg <= 10.0, "pitch_sweep_deg", pitch_sweep_deg,
-          "from 0 to 10");
-  require(pitch_step_deg > 0.0, "pitch_step_deg", pitch_step_deg, "positive");
-  require(roll_sweep_deg >= 0.0 && roll_sweep_deg <= 10.0, "roll_sweep_deg", roll_sweep_deg,
-          "from 0 to 10");
-  require(roll_step_deg > 0.0, "roll_step_deg", roll_step_deg, "positive");
-  require(minimal_problems >= 1, "minimal_problems", minimal_problems, "at least 1");
-  require(first_modes >= 0, "first_modes", first_modes, "at least 0");
-  require(first_problems >= 1, "first_problems", first_problems, "at least 1");
-  require(settled_cost >= 0.0 && settled_cost <= 1.0, "settled_cost", settled_cost, "from 0 to 1");
-  require(finalists >= 1, "finalists", finalists, "at least 1");
-  require(modes >= 1, "modes", modes, "at least 1");
-  require(mode_rotation_deg >= 0.0, "mode_rotation_deg", mode_rotation_deg, "at least 0");
-  require(mode_direction_deg >= 0.0, "mode_direction_deg", mode_direction_deg, "at least 0");
-  require(min_inliers >= 5, "min_inliers", min_inliers, "at least 5");
-  require(standing_px >= 0.0, "standing_px", standing_px, "at least 0");
+  require(some, std::string("consensus.") + SolverPool::key(0), 0, "true when no other solver is on");
+  require(threshold_px > 0.0, "consensus.threshold_px", threshold_px, "positive");
+  require(pitch_sweep_deg >= 0.0 && pitch_sweep_deg <= 10.0, "consensus.pitch_sweep_deg",
+          pitch_sweep_deg, "from 0 to 10");
+  require(pitch_step_deg > 0.0, "consensus.pitch_step_deg", pitch_step_deg, "positive");
+  require(roll_sweep_deg >= 0.0 && roll_sweep_deg <= 10.0, "consensus.roll_sweep_deg",
+          roll_sweep_deg, "from 0 to 10");
+  require(roll_step_deg > 0.0, "consensus.roll_step_deg", roll_step_deg, "positive");
+  require(minimal_problems >= 1, "consensus.minimal_problems", minimal_problems, "at least 1");
+  require(first_modes >= 0, "consensus.first_modes", first_modes, "at least 0");
+  require(first_problems >= 1, "consensus.first_problems", first_problems, "at least 1");
+  require(settled_cost >= 0.0 && settled_cost <= 1.0, "consensus.settled_cost", settled_cost,
+          "from 0 to 1");
+  require(finalists >= 1, "consensus.finalists", finalists, "at least 1");
+  require(modes >= 1, "consensus.modes", modes, "at least 1");
+  require(mode_rotation_deg >= 0.0, "consensus.mode_rotation_deg", mode_rotation_deg, "at least 0");
+  require(mode_direction_deg >= 0.0, "consensus.mode_direction_deg", mode_direction_deg,
+          "at least 0");
+  require(min_inliers >= 5, "consensus.min_inliers", min_inliers, "at least 5");
+  require(standing_px >= 0.0, "consensus.standing_px", standing_px, "at least 0");
 }
 
 RobustResult one_ac_consensus(AcSpan acs, const Eigen::Matrix3d& R_level_cam, double focal_px,

@@ -3,6 +3,7 @@
 #include "consensus/consensus_kernels.h"
 #include "consensus/levelled_acs.h"
 
+#include "oneac/geometry/angles.h"
 #include "oneac/robust/pitch_sweep.h"
 #include "oneac/solvers/registry.h"
 
@@ -15,7 +16,6 @@
 namespace oneac::internal {
 namespace {
 
-constexpr double kDegree = 3.14159265358979323846 / 180.0;
 // Points of the first score: with 80 % outliers still a dozen that the true motion explains.
 constexpr std::size_t kSample = 64;
 // Width of the first score against the threshold: half a step of the sweep moves the points by

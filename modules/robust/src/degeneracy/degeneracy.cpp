@@ -3,6 +3,7 @@
 #include "degeneracy/one_plane.h"
 #include "polish/pose_covariance.h"
 
+#include "oneac/base/median.h"
 #include "oneac/geometry/essential.h"
 #include "oneac/geometry/leveling.h"
 #include "oneac/geometry/triangulation.h"
@@ -30,12 +31,6 @@ constexpr double kWorthAFit = 6.0;
 constexpr std::size_t kGlance = 64;
 constexpr double kClearlyAbove = 3.0;
 
-double median(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
-
 /// Result when R alone leaves the points within the bounds.
 std::optional<RobustResult> explained(AcSpan acs, const Eigen::Matrix3d& R,
                                       const DegeneracyBounds& bounds) {
@@ -43,7 +38,7 @@ std::optional<RobustResult> explained(AcSpan acs, const Eigen::Matrix3d& R,
     return std::nullopt;
   }
   const std::vector<double> errors = rotation_transfer_errors(R, acs);
-  if (median(errors) >= bounds.standing_shift) return std::nullopt;
+  if (upper_median(errors) >= bounds.standing_shift) return std::nullopt;
   RobustResult result;
   result.pose.R = R;
   result.inliers.reserve(errors.size());

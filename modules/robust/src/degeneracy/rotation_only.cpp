@@ -1,6 +1,8 @@
 #include "oneac/robust/rotation_only.h"
 
+#include "oneac/base/median.h"
 #include "oneac/geometry/relative_pose.h"
+#include "oneac/geometry/robust_loss.h"
 
 #include <Eigen/Dense>
 
@@ -8,6 +10,7 @@
 #include <cmath>
 #include <cstddef>
 #include <limits>
+#include <utility>
 
 namespace oneac {
 namespace {
@@ -35,8 +38,7 @@ RotationEquations equations(const Eigen::Matrix3d& R, AcSpan acs, double scale) 
     Eigen::Matrix<double, 2, 3> J;  // ∂π(exp([w]×) y)/∂w at w = 0
     J << -u * v, 1.0 + u * u, -v, -1.0 - v * v, u * v, u;
     const Eigen::Vector2d r = Eigen::Vector2d(u, v) - ac.x2;
-    const double share = scale * scale / (r.squaredNorm() + scale * scale);
-    const double weight = share * share;
+    const double weight = geman_mcclure_weight(r.squaredNorm(), scale * scale);
     e.H += weight * J.transpose() * J;
     e.g += weight * J.transpose() * r;
     e.weighted_square += weight * r.squaredNorm();
@@ -92,9 +94,7 @@ double median_transfer_error(const Eigen::Matrix3d& R, AcSpan acs, std::size_t l
   for (std::size_t k = 0; k < count; ++k) {
     errors[k] = transfer_error(R, acs[k * acs.size() / count]);
   }
-  const auto middle = errors.begin() + static_cast<std::ptrdiff_t>(count / 2);
-  std::nth_element(errors.begin(), middle, errors.end());
-  return *middle;
+  return upper_median(std::move(errors));
 }
 
 }  // namespace oneac

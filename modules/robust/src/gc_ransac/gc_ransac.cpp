@@ -2,6 +2,7 @@
 
 #include "gc_ransac/gc_ransac_loop.h"
 
+#include "oneac/base/require.h"
 #include "oneac/geometry/essential.h"
 #include "oneac/geometry/homography.h"
 #include "oneac/robust/point_set.h"
@@ -9,8 +10,6 @@
 #include "oneac/solvers/essential_8pc.h"
 
 #include <cmath>
-#include <sstream>
-#include <stdexcept>
 
 namespace oneac {
 namespace {
@@ -104,14 +103,6 @@ class EpipolarSpace : public internal::ModelSpace {
   std::vector<AffineCorrespondence> gathered_;
 };
 
-template <class Value>
-void require(bool good, const char* field, const Value& value, const char* bound) {
-  if (good) return;
-  std::ostringstream message;
-  message << "gc_ransac." << field << " = " << value << ", must be " << bound;
-  throw std::invalid_argument(message.str());
-}
-
 /// Polished on all points: a smooth robust loss instead of MSAC, whose inliers switch.
 Eigen::Matrix3d polished(EpipolarSpace& space, const internal::LoopResult& found,
                          double threshold) {
@@ -142,25 +133,29 @@ void conclude(const Eigen::Matrix3d& E, EpipolarSpace& space, const FiniteAcs& f
 }  // namespace
 
 void GcRansacOptions::validate() const {
-  require(threshold_px > 0.0, "threshold_px", threshold_px, "positive");
-  require(confidence > 0.0 && confidence < 1.0, "confidence", confidence, "between 0 and 1");
-  require(max_iterations >= 1, "max_iterations", max_iterations, "at least 1");
-  require(min_iterations >= 1 && min_iterations <= max_iterations, "min_iterations", min_iterations,
-          "from 1 to max_iterations");
-  require(sampler == "uniform" || sampler == "prosac", "sampler", sampler, "uniform or prosac");
-  require(neighbourhood_cells >= 1 && neighbourhood_cells <= 1000, "neighbourhood_cells",
+  require(threshold_px > 0.0, "gc_ransac.threshold_px", threshold_px, "positive");
+  require(confidence > 0.0 && confidence < 1.0, "gc_ransac.confidence", confidence,
+          "between 0 and 1");
+  require(max_iterations >= 1, "gc_ransac.max_iterations", max_iterations, "at least 1");
+  require(min_iterations >= 1 && min_iterations <= max_iterations, "gc_ransac.min_iterations",
+          min_iterations, "from 1 to max_iterations");
+  require(sampler == "uniform" || sampler == "prosac", "gc_ransac.sampler", sampler,
+          "uniform or prosac");
+  require(neighbourhood_cells >= 1 && neighbourhood_cells <= 1000, "gc_ransac.neighbourhood_cells",
           neighbourhood_cells, "from 1 to 1000");
-  require(coherence >= 0.0 && coherence < 1e6, "coherence", coherence, "at least 0 and finite");
-  require(lo_iterations >= 0, "lo_iterations", lo_iterations, "at least 0");
-  require(lo_model == "both" || lo_model == "polish" || lo_model == "8pc", "lo_model", lo_model,
-          "both, polish or 8pc");
-  require(min_inliers >= 5, "min_inliers", min_inliers, "at least 5");
+  require(coherence >= 0.0 && coherence < 1e6, "gc_ransac.coherence", coherence,
+          "at least 0 and finite");
+  require(lo_iterations >= 0, "gc_ransac.lo_iterations", lo_iterations, "at least 0");
+  require(lo_model == "both" || lo_model == "polish" || lo_model == "8pc", "gc_ransac.lo_model",
+          lo_model, "both, polish or 8pc");
+  require(min_inliers >= 5, "gc_ransac.min_inliers", min_inliers, "at least 5");
 }
 
 RobustResult gc_ransac(AcSpan acs, const Eigen::Matrix3d& R_level_cam, double focal_px,
                        const Solver& solver, std::uint64_t seed, const GcRansacOptions& options) {
   options.validate();
-  require(focal_px > 0.0 && std::isfinite(focal_px), "focal_px", focal_px, "positive and finite");
+  require(focal_px > 0.0 && std::isfinite(focal_px), "gc_ransac.focal_px", focal_px,
+          "positive and finite");
   RobustResult result;
   result.inliers.assign(acs.size(), false);
   result.cost = static_cast<double>(acs.size());

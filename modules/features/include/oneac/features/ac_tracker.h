@@ -38,14 +38,6 @@ class AcTracker {
   /// Correspondences [px] from the last frame given to this one; none for the first.
   [[nodiscard]] virtual TrackedPair advance(std::shared_ptr<const FrameFeatures> now,
                                             const MotionHint& hint) = 0;
-  /// Where a track was in two frames and the affinity between them, composed along the track.
-  /// Frames count the calls of advance() since the start or reset(), from 0. Empty when the track
-  /// was not seen in one of them or the tracker has forgotten it (it keeps live tracks, and of each
-  /// the last kTrackMemory frames).
-  [[nodiscard]] virtual std::optional<AffineCorrespondence> between(std::uint64_t track,
-                                                                    std::size_t frame1,
-                                                                    std::size_t frame2) const = 0;
-  static constexpr std::size_t kTrackMemory = 200;
   /// Forgets all tracks: the next frame is a first one.
   virtual void reset() = 0;
 };

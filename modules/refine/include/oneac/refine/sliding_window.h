@@ -12,15 +12,18 @@ namespace oneac {
 
 /// Sliding-window bundle adjustment. validate() throws std::invalid_argument.
 struct WindowRefineOptions {
-  double point_noise_px = 0.2;        ///< [px] 1σ of a tracked point where the track does not say
-  double affine_noise = 0.05;         ///< [-] 1σ of an entry of A where the track does not say
-  double loss_sigmas = 1.0;           ///< [σ] scale of the Cauchy loss, as in RefineOptions
-  double affine_gate_chi2 = 13.3;     ///< [-] χ² of the four entries of A; 99 % of Gaussian pass
-  bool affine_terms = false;          ///< affinities move the poses too, not only the normals
+  double point_noise_px = 0.2;     ///< [px] 1σ of a tracked point where the track does not say
+  double affine_noise = 0.05;      ///< [-] 1σ of an entry of A where the track does not say
+  double loss_sigmas = 1.0;        ///< [σ] scale of the Cauchy loss, as in RefineOptions
+  double affine_gate_chi2 = 13.3;  ///< [-] χ² of the four entries of A; 99 % of Gaussian pass
+  /// fast: the points' cost by the module's own solver. ceres: the same cost by Ceres, its tested
+  /// reference. ceres+affine: Ceres, and the consistent affinities move the poses too.
+  std::string solver = "fast";
   double suspension_deg = 1.5;        ///< [deg] 1σ of roll and pitch from one keyframe to the next
   double travel_elevation_deg = 3.0;  ///< [deg] 1σ of the elevation of travel
   int max_iterations = 10;            ///< bounds the time: a warm start needs three to six
 
+  [[nodiscard]] bool affine_terms() const { return solver == "ceres+affine"; }
   void validate() const;
 };
 
@@ -30,7 +33,7 @@ void describe(Visitor&& visit, WindowRefineOptions& o) {
   visit("affine_noise", o.affine_noise, "-", "1 sigma of an entry of the affinity");
   visit("loss_sigmas", o.loss_sigmas, "sigma", "scale of the robust (Cauchy) loss");
   visit("affine_gate_chi2", o.affine_gate_chi2, "-", "affinities beyond it are left out");
-  visit("affine_terms", o.affine_terms, "bool", "affinities move the poses, not only the normals");
+  visit("solver", o.solver, "name", "fast, ceres (the same cost) or ceres+affine (affinities too)");
   visit("suspension_deg", o.suspension_deg, "deg", "1-sigma of roll and pitch between keyframes");
   visit("travel_elevation_deg", o.travel_elevation_deg, "deg",
         "1-sigma of the elevation of travel");
