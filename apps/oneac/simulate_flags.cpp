@@ -21,8 +21,7 @@ void add_hard(CLI::App& verb, SimulationOptions& options) {
     return all;
   }());
   verb.add_option_function<std::string>(
-          "--hard",
-          [&options](const std::string& name) { options = hard_drive(name).options; },
+          "--hard", [&options](const std::string& name) { options = hard_drive(name).options; },
           "A kind of drive that is hard (docs/benchmarks/hard-drives.md); other flags change it")
       ->check(names)
       ->trigger_on_parse();

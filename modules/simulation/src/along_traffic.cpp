@@ -39,8 +39,8 @@ std::vector<MovingVehicle> stream(const Route& route, double duration_s, const S
   double meets_s = kFirst_s;
   while (meets_s < duration_s + kAfterwards_s) {
     const bool van = random.chance(0.35);
-    const Eigen::Vector3d size = van ? Eigen::Vector3d(5.6, 2.0, 2.5)
-                                     : Eigen::Vector3d(random.uniform(4.0, 4.8), 1.8, 1.5);
+    const Eigen::Vector3d size =
+        van ? Eigen::Vector3d(5.6, 2.0, 2.5) : Eigen::Vector3d(random.uniform(4.0, 4.8), 1.8, 1.5);
     MovingVehicle vehicle;
     vehicle.at_start = block(route.at(meets_s).position.x(), kLane, size, Box::Kind::kVehicle);
     vehicle.shift = [meets_s, speed = wanted.speed_mps](double time_s) -> Eigen::Vector3d {
@@ -64,8 +64,8 @@ std::vector<MovingVehicle> oncoming_traffic(const Route& route, double duration_
 
 std::vector<MovingVehicle> truck_ahead(const SimulationOptions& options, const Route& route) {
   MovingVehicle truck;
-  truck.at_start = block(0.0, 0.0, {kTruckLength_m, kTruckWidth_m, kTruckHeight_m},
-                         Box::Kind::kTruck);
+  truck.at_start =
+      block(0.0, 0.0, {kTruckLength_m, kTruckWidth_m, kTruckHeight_m}, Box::Kind::kTruck);
   truck.shift = [route, from = options.camera_forward_m, gap = options.truck_gap_m,
                  swing = options.truck_gap_swing_m](double time_s) -> Eigen::Vector3d {
     const double now = gap + swing * std::sin(kTwoPi * time_s / kSwing_s);

@@ -52,7 +52,8 @@ float Bonnet::surface(const Picture& picture, double u, double v) const {
   const double source_v = edge(u) - kCompression * below - 1.0;
   float reflected = 0.0F;
   for (int k = -2; k <= 2; ++k) {
-    reflected += picture.near(source_u + 1.5 * k, source_v + k) + picture.near(source_u - k, source_v);
+    reflected +=
+        picture.near(source_u + 1.5 * k, source_v + k) + picture.near(source_u - k, source_v);
   }
   const int row = static_cast<int>(v - (height_ - marks_.height()));
   const float mark = marks_.at(static_cast<int>(u), std::clamp(row, 0, marks_.height() - 1));

@@ -23,9 +23,9 @@ PinholeCamera camera_of(const SimulationOptions& options) {
 Eigen::Isometry3d mount_of(const SimulationOptions& options) {
   const Eigen::AngleAxisd yaw(options.camera_yaw_deg * kDegree, Eigen::Vector3d::UnitZ());
   Eigen::Isometry3d T = CameraFrame::forward_looking_mount();
-  T.linear() = yaw.toRotationMatrix() * T.linear() *
-               leveling_rotation({options.camera_tilt_deg * kDegree,
-                                  options.camera_roll_deg * kDegree});
+  T.linear() =
+      yaw.toRotationMatrix() * T.linear() *
+      leveling_rotation({options.camera_tilt_deg * kDegree, options.camera_roll_deg * kDegree});
   T.translation() << options.camera_forward_m, options.camera_left_m, options.camera_height_m;
   return T;
 }

@@ -84,9 +84,8 @@ std::vector<MovingVehicle> crossing_traffic(const Route& route, double duration_
   for (const Leg& leg : route.legs()) {
     const double x = kPlace * leg.length_m;
     const double passes = time_at(route, leg.to_world({x - kAhead_m, 0.0}), duration_s);
-    vehicles.push_back(
-        crossing_vehicle(leg, {x, side, kStart_m, kLength_m, kWidth_m, kHeight_m}, kSpeed_mps,
-                         passes - kStart_m / kSpeed_mps));
+    vehicles.push_back(crossing_vehicle(leg, {x, side, kStart_m, kLength_m, kWidth_m, kHeight_m},
+                                        kSpeed_mps, passes - kStart_m / kSpeed_mps));
     side = -side;
   }
   return vehicles;
@@ -99,9 +98,9 @@ std::vector<MovingVehicle> crossing_buses(const Route& route) {
     double side = 1.0;
     double passes = stop.time_s + kFirstBus_s;  // its front is before the camera
     while (passes + kBusLength_m / kBusSpeed_mps < stop.time_s + stop.wait_s) {
-      buses.push_back(crossing_vehicle(
-          stop.leg, {x, side, kStart_m, kBusLength_m, kBusWidth_m, kBusHeight_m}, kBusSpeed_mps,
-          passes - kStart_m / kBusSpeed_mps));
+      buses.push_back(crossing_vehicle(stop.leg,
+                                       {x, side, kStart_m, kBusLength_m, kBusWidth_m, kBusHeight_m},
+                                       kBusSpeed_mps, passes - kStart_m / kBusSpeed_mps));
       buses.back().at_start.kind = Box::Kind::kTruck;
       passes += kBusEvery_s;
       side = -side;

@@ -7,9 +7,9 @@
 namespace oneac::simulation {
 namespace {
 
-constexpr double kNearest_m = 110.0;  // of the houses
-constexpr double kReach_m = 320.0;    // how far from the road they are strewn
-constexpr int kHousesPer100m = 30;    // of the route: the horizon is nearly closed
+constexpr double kNearest_m = 110.0;   // of the houses
+constexpr double kReach_m = 320.0;     // how far from the road they are strewn
+constexpr int kHousesPer100m = 30;     // of the route: the horizon is nearly closed
 constexpr double kPostBeside_m = 2.6;  // right of the lane
 
 bool near_path(const std::vector<Eigen::Vector2d>& path, const Box& box, double distance) {
@@ -42,8 +42,8 @@ void add_houses(RandomNumbers& random, const std::vector<Eigen::Vector2d>& path,
     const Eigen::Vector2d centre = around(random, from);
     const double length = random.uniform(12.0, 38.0);
     const double depth = random.uniform(10.0, 20.0);
-    const Box house = block(centre, {length, depth, random.uniform(5.0, 24.0)},
-                            Box::Kind::kFarBuilding);
+    const Box house =
+        block(centre, {length, depth, random.uniform(5.0, 24.0)}, Box::Kind::kFarBuilding);
     if (!near_path(path, house, kNearest_m)) boxes.push_back(house);
   }
 }
@@ -53,8 +53,8 @@ void add_posts(RandomNumbers& random, const Leg& leg, const std::vector<Eigen::V
   double x = random.uniform(5.0, 25.0);
   while (x < leg.length_m) {
     const double height = random.uniform(4.5, 7.0);
-    const Box post = block(leg.to_world({x, -kPostBeside_m}), {0.22, 0.22, height},
-                           Box::Kind::kPost);
+    const Box post =
+        block(leg.to_world({x, -kPostBeside_m}), {0.22, 0.22, height}, Box::Kind::kPost);
     if (!near_path(path, post, 2.3)) boxes.push_back(post);
     x += random.uniform(25.0, 45.0);
   }

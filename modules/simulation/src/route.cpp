@@ -17,7 +17,8 @@ constexpr double kShortestStreet = 32.0;  // [m] room to reach cruising speed be
 constexpr double kLongestStreet = 46.0;   // [m]
 constexpr double kSightMargin =
     120.0;  // [m] of street beyond the last frame, so that it does not end
-constexpr double kStopPosition = 0.5;  // of the street's length
+constexpr double kStopPosition = 0.5;                     // of the street's length
+constexpr double kStopAlone = 30.0;                       // [m] from where a straight route begins
 constexpr double kEntryAngle = kQuarterTurn * 2.0 / 3.0;  // aside, at a roundabout
 constexpr double kEntryRadius = 10.0;                     // [m]
 constexpr double kRoundaboutRadius = 14.0;                // [m] of the lane
@@ -93,7 +94,8 @@ void Route::append_bend(int quadrant, int turn) {
 /// proper; as a whole a quarter turn to the left or straight on.
 void Route::append_roundabout(int quadrant, int turn) {
   const auto arc = [this](double angle, double radius) {
-    const double share = kTransitionSteps * kStep / radius;  // half of it is lost in each transition
+    const double share =
+        kTransitionSteps * kStep / radius;  // half of it is lost in each transition
     const int steps = static_cast<int>((std::abs(angle) - share) * radius / kStep);
     const double curvature = angle / (kStep * (steps + kTransitionSteps));
     append(kTransitionSteps, 0.0, curvature);
@@ -142,7 +144,10 @@ void Route::lay_streets(const SimulationOptions& options, double needed_m) {
 
 void Route::lay_straight(const SimulationOptions& options, double needed_m) {
   append_straight(static_cast<int>(needed_m / kStep), 0);
-  if (options.route != RouteKind::kStopAndGo) return;
+  if (options.route == RouteKind::kStraight) {
+    wait_at(static_cast<std::size_t>(kStopAlone / kStep), options.stop_s);
+    return;
+  }
   RandomNumbers random(options.seed ^ 0x73746f70ULL);
   double x = random.uniform(kShortestGo, kLongestGo);
   while (x < needed_m - kSightMargin) {

@@ -13,9 +13,9 @@ namespace {
 constexpr float kToneCos = 0.7986F;  // the slow tone lies 37° askew over the asphalt
 constexpr float kToneSin = 0.6018F;
 
-constexpr double kCeiling_m = 500.0;   // of the clouds
-constexpr float kOvercast = 190.0F;    // what the haze above the horizon looks like
-constexpr float kHaze = 0.03F;         // sine of the elevation below which no cloud is seen
+constexpr double kCeiling_m = 500.0;  // of the clouds
+constexpr float kOvercast = 190.0F;   // what the haze above the horizon looks like
+constexpr float kHaze = 0.03F;        // sine of the elevation below which no cloud is seen
 
 /// Light from the south-west and above: corners of buildings stand out.
 float illumination(const Face& face, bool upper) {

@@ -66,8 +66,7 @@ bool contains(const Face& face, const Eigen::Vector3d& X) {
 }  // namespace
 
 StreetRenderer::StreetRenderer(const PinholeCamera& camera, const Route& route,
-                               const SimulationOptions& options,
-                               std::vector<MovingVehicle> traffic)
+                               const SimulationOptions& options, std::vector<MovingVehicle> traffic)
     : camera_(camera),
       view_range_m_(options.scenery == Scenery::kFar ? kViewInTheOpen_m : kViewInTown_m),
       traffic_(std::move(traffic)),

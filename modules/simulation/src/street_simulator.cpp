@@ -77,8 +77,7 @@ struct StreetSimulator::Impl {
         route(options, duration(options)),
         suspension(options, route, duration(options) + options.rolling_shutter_s),
         T_world_town(slope_of(options)),
-        renderer(camera, route, options,
-                 simulation::traffic_of(options, route, duration(options))),
+        renderer(camera, route, options, simulation::traffic_of(options, route, duration(options))),
         effects(options) {}
 
   [[nodiscard]] SimulatedState state_at(double time_s) const;

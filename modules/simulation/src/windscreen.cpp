@@ -16,14 +16,14 @@ constexpr double kPivotV = 1.12;     // [picture heights]
 constexpr double kFrom = 0.15;       // [rad] from the right, where the blade is parked
 constexpr double kTurn = 2.2;        // [rad] of its sweep
 constexpr double kBlade = 0.012;     // [picture widths] half of its width: out of focus
-constexpr int kSweptDrops = 90;      // light rain
+constexpr int kSweptDrops = 160;     // steady rain
 constexpr int kLastingDrops = 30;    // with a wiper: beyond its reach
 constexpr int kUnwipedDrops = 110;   // without
 constexpr double kLasting_s = 9.0;   // until a drop runs off or merges
-constexpr double kSmallest = 0.005;  // [picture widths] radius
-constexpr double kLargest = 0.02;
-constexpr double kLens = 5.0;        // a drop shows so much more than it covers, upside down
-constexpr float kVeil = 0.25F;       // share of the contrast that the wet air takes
+constexpr double kSmallest = 0.006;  // [picture widths] radius
+constexpr double kLargest = 0.024;
+constexpr double kLens = 5.0;   // a drop shows so much more than it covers, upside down
+constexpr float kVeil = 0.25F;  // share of the contrast that the wet air takes
 constexpr float kVeilGrey = 150.0F;
 
 /// Since the start of the cycle, when the blade passes a share of its sweep upwards [s].

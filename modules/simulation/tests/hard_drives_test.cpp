@@ -1,9 +1,8 @@
 #include "oneac/simulation/hard_drives.h"
 
 #include "along_traffic.h"
+#include "camera_mount.h"
 #include "street_layout.h"
-
-#include "oneac/simulation/street_simulator.h"
 
 #include <gtest/gtest.h>
 
@@ -149,8 +148,7 @@ TEST(Buses, AreBeforeTheCameraOnlyWhileTheCarStands) {
     const Eigen::Vector2d car = route.at(t).position;
     for (const MovingVehicle& bus : buses) {
       const Box box = bus.at(t);
-      const Eigen::Vector2d nearest =
-          car.cwiseMax(box.low.head<2>()).cwiseMin(box.high.head<2>());
+      const Eigen::Vector2d nearest = car.cwiseMax(box.low.head<2>()).cwiseMin(box.high.head<2>());
       if ((nearest - car).norm() > 7.0) continue;
       ++frames_before_it;
       EXPECT_EQ(route.at(t).speed, 0.0) << t;
@@ -164,16 +162,14 @@ TEST(OtherCameras, LookWhereTheirMountSays) {
   const auto axis = [](const char* name, int column) -> Eigen::Vector3d {
     SimulationOptions options = hard_drive(name).options;
     options.camera_tilt_deg = 0.0;
-    options.frames = 1;
-    options.width_px = options.height_px = 16;
-    return StreetSimulator(options).T_vehicle_cam().linear().col(column);
+    return simulation::mount_of(options).linear().col(column);
   };
   EXPECT_NEAR(axis("rear", 2).x(), -1.0, 1e-12);
   EXPECT_NEAR(axis("left", 2).y(), 1.0, 1e-12);
   EXPECT_NEAR(axis("right", 2).y(), -1.0, 1e-12);
-  EXPECT_NEAR(axis("upside-down", 1).z(), 1.0, 1e-12);   // the picture's down is up
-  EXPECT_NEAR(axis("upside-down", 2).x(), 1.0, 1e-12);   // and ahead is ahead
-  EXPECT_NEAR(axis("portrait", 0).z(), -1.0, 1e-12);     // right hangs down
+  EXPECT_NEAR(axis("upside-down", 1).z(), 1.0, 1e-12);  // the picture's down is up
+  EXPECT_NEAR(axis("upside-down", 2).x(), 1.0, 1e-12);  // and ahead is ahead
+  EXPECT_NEAR(axis("portrait", 0).z(), -1.0, 1e-12);    // right hangs down
 }
 
 }  // namespace

@@ -29,7 +29,8 @@ std::vector<float> even(float value) {
 }
 
 /// A picture of one grey level after the effects.
-std::vector<float> looked_at(const SimulationOptions& options, double time_s, float value = 120.0F) {
+std::vector<float> looked_at(const SimulationOptions& options, double time_s,
+                             float value = 120.0F) {
   std::vector<float> grey = even(value);
   PictureEffects(options).apply(grey, time_s, 0);
   return grey;
@@ -115,8 +116,8 @@ TEST(Night, IsDarkNoisyAndHasPixelsThatAlwaysGlow) {
   const std::vector<float> now = looked_at(options, 0.0);
   const std::vector<float> later = looked_at(options, 5.0);
   EXPECT_EQ(now, later);
-  EXPECT_LT(now[0], 20.0F);                                                // a corner of the sky
-  EXPECT_GT(now[static_cast<std::size_t>(78 * kWidth + 80)], 80.0F);       // in the beam
+  EXPECT_LT(now[0], 20.0F);                                           // a corner of the sky
+  EXPECT_GT(now[static_cast<std::size_t>(78 * kWidth + 80)], 80.0F);  // in the beam
   EXPECT_GT(PictureEffects(options).noise(), 5.0);
 }
 
@@ -150,7 +151,8 @@ TEST(RollingShutter, ShowsNothingWhileTheCarStands) {
   std::size_t standing = 0;
   for (std::size_t i = 15; i + 12 < global.size() && standing == 0; ++i) {
     bool stands = true;
-    for (std::size_t k = i - 12; k <= i + 1; ++k) stands = stands && global.state(k).speed_mps == 0.0;
+    for (std::size_t k = i - 12; k <= i + 1; ++k)
+      stands = stands && global.state(k).speed_mps == 0.0;
     if (stands) standing = i;
   }
   ASSERT_GT(standing, 0U);

@@ -7,8 +7,8 @@ namespace oneac {
 /// Where the vehicle drives.
 enum class RouteKind {
   kStreet,      ///< streets between right-angled bends, a stop on every second one
-  kStraight,    ///< one road without bend or stop: a highway
-  kStopAndGo,   ///< the same, with a stop of some seconds every 10 to 22 m
+  kStraight,    ///< one road without bend, a stop after 30 m
+  kStopAndGo,   ///< the same, with a stop of 1 to 3.5 s every 10 to 22 m
   kRoundabout,  ///< streets that meet in roundabouts, taken with 120 to 210 degrees of circle
 };
 /// What stands around the road.
@@ -55,7 +55,8 @@ struct SimulationOptions {
   double speed_mps = 8.0;          ///< [m/s] on straights; a side street
   double acceleration_mps2 = 1.5;  ///< [m/s²] what passengers do not notice
   double braking_mps2 = 2.0;       ///< [m/s²] the same
-  double stop_s = 3.0;             ///< [s] length of the stop on every second street; 0: none
+  double stop_s =
+      3.0;  ///< [s] length of the stop on every second street, on a straight road; 0: none
   double suspension_pitch_deg =
       0.2;                           ///< [deg] std. deviation at full speed, on top of braking dive
   double suspension_roll_deg = 0.1;  ///< [deg] std. deviation at full speed, on top of cornering
@@ -67,9 +68,9 @@ struct SimulationOptions {
   double truck_gap_m = 7.0;          ///< [m] from the camera to the truck; close city traffic
   double truck_gap_swing_m = 0.0;    ///< [m] the gap swings by so much in 12 s; 0: constant
 
-  double slope_percent = 0.0;     ///< [%] of the whole town, rising along the first street
-  double dark_from_s = 0.0;       ///< [s] from here on, for ...
-  double dark_s = 0.0;            ///< [s] ... so long the images are nearly black; 0: never
+  double slope_percent = 0.0;  ///< [%] of the whole town, rising along the first street
+  double dark_from_s = 0.0;    ///< [s] from here on, for ...
+  double dark_s = 0.0;         ///< [s] ... so long the images are nearly black; 0: never
 
   double bonnet_share = 0.0;       ///< [-] of the picture's height that the bonnet hides; 0: none
   bool rain = false;               ///< drops on the windscreen, less contrast
