@@ -1,8 +1,10 @@
 #include "commands.h"
 #include "interrupt.h"
 #include "progress_bar.h"
+#include "simulate_flags.h"
 
 #include "oneac/base/error.h"
+#include "oneac/geometry/camera_frame.h"
 #include "oneac/rawlog/drive_recorder.h"
 #include "oneac/simulation/street_simulator.h"
 
@@ -15,6 +17,7 @@
 #include <stdexcept>
 #include <string>
 #include <thread>
+#include <utility>
 
 namespace oneac::app {
 namespace {
@@ -23,6 +26,8 @@ struct SimulateArguments {
   SimulationOptions options;
   std::filesystem::path folder;
   std::string mount = "x_forward";
+  bool silent_mount = false;
+  std::string calibration_error = "none";
   int threads = 0;
   bool no_progress = false;
 };
@@ -72,6 +77,26 @@ DriveRecording recording_of(const StreetSimulator& simulator) {
   return drive;
 }
 
+/// What the log says of the camera, where it does not tell the truth.
+void falsify(DriveRecording& drive, const SimulateArguments& arguments) {
+  if (arguments.silent_mount) {
+    drive.T_vehicle_cam = CameraFrame::forward_looking_mount();
+    drive.convention = MountConvention::x_forward;  // all zero there
+  }
+  PinholeCamera& camera = drive.camera;
+  const std::string& error = arguments.calibration_error;
+  if (error == "full-size") {
+    camera.fx *= 2.0, camera.fy *= 2.0;
+    camera.cx = 2.0 * camera.cx + 0.5, camera.cy = 2.0 * camera.cy + 0.5;
+  } else if (error == "focal-5") {
+    camera.fx = camera.fy = 5.0;
+  } else if (error == "swapped") {
+    std::swap(camera.cx, camera.cy);
+  } else if (error == "focal-10-percent") {
+    camera.fx *= 1.1, camera.fy *= 1.1;
+  }
+}
+
 int number_of_threads(int wanted) {
   if (wanted > 0) return wanted;
   return static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
@@ -91,6 +116,7 @@ void simulate(const SimulateArguments& arguments) {
   const StreetSimulator simulator(arguments.options);
   DriveRecording drive = recording_of(simulator);
   if (arguments.mount == "optical") drive.convention = MountConvention::optical;
+  falsify(drive, arguments);
   drive.threads = number_of_threads(arguments.threads);
   std::size_t written = 0;
   RecordedDrive files;
@@ -113,44 +139,6 @@ void simulate(const SimulateArguments& arguments) {
             << "poses   " << files.poses.string() << '\n';
 }
 
-void add_camera_options(CLI::App& verb, SimulationOptions& options) {
-  verb.add_option("--width", options.width_px, "[px]")->capture_default_str();
-  verb.add_option("--height", options.height_px, "[px]")->capture_default_str();
-  verb.add_option("--focal", options.focal_px, "[px]")->capture_default_str();
-  verb.add_option("--fps", options.fps, "[Hz]")->capture_default_str();
-  verb.add_option("--tilt-deg", options.camera_tilt_deg, "Camera, upwards [deg]")
-      ->capture_default_str();
-  verb.add_option("--camera-height", options.camera_height_m, "Above the road [m]")
-      ->capture_default_str();
-  verb.add_option("--noise", options.image_noise, "Std. deviation [grey levels]")
-      ->capture_default_str();
-  verb.add_flag("--stereo", options.stereo, "Write stereo observations");
-  verb.add_option("--baseline", options.baseline_m, "Of the stereo pair [m]")
-      ->capture_default_str();
-}
-
-void add_drive_options(CLI::App& verb, SimulationOptions& options) {
-  verb.add_option("--frames", options.frames, "Number of images")->capture_default_str();
-  verb.add_option("--seed", options.seed, "Everything random follows from it")
-      ->capture_default_str();
-  verb.add_option("--speed", options.speed_mps, "On straights [m/s]")->capture_default_str();
-  verb.add_option("--stop", options.stop_s, "Standing on every second street [s]; 0: none")
-      ->capture_default_str();
-  verb.add_option("--suspension-pitch", options.suspension_pitch_deg, "Std. deviation [deg]")
-      ->capture_default_str();
-  verb.add_option("--suspension-roll", options.suspension_roll_deg, "Std. deviation [deg]")
-      ->capture_default_str();
-  verb.add_option("--slope", options.slope_percent, "Of the whole town, along the first street [%]")
-      ->capture_default_str();
-  verb.add_flag("--crossing-traffic", options.crossing_traffic,
-                "A vehicle crosses every street before the camera");
-  verb.add_option("--dark-from", options.dark_from_s, "Nearly black images from here on [s] ...")
-      ->capture_default_str();
-  verb.add_option("--dark", options.dark_s, "... for so long [s]; 0: never")->capture_default_str();
-  verb.add_option("--gps-noise", options.gps_noise_m, "Std. deviation per axis [m]")
-      ->capture_default_str();
-}
-
 }  // namespace
 
 void add_simulate(CLI::App& program) {
@@ -158,10 +146,17 @@ void add_simulate(CLI::App& program) {
       "simulate", "A street drive in the Malaga layout: rawlog, images, GPS, IMU, true poses");
   const auto arguments = std::make_shared<SimulateArguments>();
   verb->add_option("-o,--output", arguments->folder, "Folder to write to")->required();
-  add_drive_options(*verb, arguments->options);
-  add_camera_options(*verb, arguments->options);
+  add_simulation_flags(*verb, arguments->options);
   verb->add_option("--mount", arguments->mount, "Axes of the camera's pose in the log")
       ->check(CLI::IsMember({"x_forward", "optical"}))
+      ->capture_default_str();
+  verb->add_flag("--silent-mount", arguments->silent_mount,
+                 "The log has the pose of a camera at the vehicle's origin, as most real logs");
+  verb->add_option("--calibration-error", arguments->calibration_error,
+                   "The log's calibration is wrong: of images twice as large, with a focal length "
+                   "of 5 px, with the principal point's coordinates swapped, with a focal length "
+                   "10 % too long")
+      ->check(CLI::IsMember({"none", "full-size", "focal-5", "swapped", "focal-10-percent"}))
       ->capture_default_str();
   verb->add_option("--threads", arguments->threads, "0: as many as the machine has")
       ->check(CLI::NonNegativeNumber)

@@ -7,6 +7,7 @@ namespace oneac::simulation {
 namespace {
 
 constexpr double kFacadeTexel = 0.025;     // [m] about a pixel at the nearest a facade is seen
+constexpr double kFarTexel = 0.1;          // [m] half a pixel where a far house is nearest
 constexpr double kObstacleTexel = 0.0125;  // [m] these stand nearer
 
 /// A rectangle in metres. Written with braces, which fix the order in which random numbers are
@@ -146,7 +147,8 @@ Texture paint_facade(const Box& box, std::uint64_t seed) {
   RandomNumbers random(seed);
   const double width = longer_side(box);
   const double height = box.high.z();
-  FacadeCanvas wall(width, height, kFacadeTexel, static_cast<float>(random.uniform(100.0, 190.0)));
+  const double texel = box.kind == Box::Kind::kFarBuilding ? kFarTexel : kFacadeTexel;
+  FacadeCanvas wall(width, height, texel, static_cast<float>(random.uniform(100.0, 190.0)));
   if (random.chance(0.5)) lay_bricks(random, wall, width, height);
   stain(random, wall.texels(), 12.0, 0.12);
   set_storeys(random, wall, width, height);
@@ -154,7 +156,27 @@ Texture paint_facade(const Box& box, std::uint64_t seed) {
   wall.rectangle({0.0, 0.0, width, 0.25, random.uniform(60.0, 200.0)});  // eaves
   soil(random, wall.texels());
   wall.texels().grain(random, 3.0);
-  return {wall.texels(), kFacadeTexel};
+  return {wall.texels(), texel};
+}
+
+Texture paint_truck(const Box& box, std::uint64_t seed) {
+  RandomNumbers random(seed);
+  const double width = longer_side(box);
+  const double height = box.high.z();
+  FacadeCanvas body(width, height, kObstacleTexel, 190.0F);
+  stain(random, body.texels(), 10.0, 0.1);
+  for (int layer = 0; layer < 3; ++layer) hang_posters(random, body, width, height);
+  constexpr double kPanel = 0.8;
+  double u = 0.0;
+  while (u < width) {
+    body.rectangle({u, 0.0, 0.03, height, 90.0});
+    u += kPanel;
+  }
+  body.rectangle({0.0, 0.78 * height, width, 0.08, 30.0});
+  body.rectangle({0.0, 0.86 * height, width, 0.14 * height, 45.0});  // bumper and wheels
+  soil(random, body.texels());
+  body.texels().grain(random, 3.0);
+  return {body.texels(), kObstacleTexel};
 }
 
 Texture paint_obstacle(const Box& box, std::uint64_t seed) {

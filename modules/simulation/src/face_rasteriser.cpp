@@ -8,7 +8,6 @@
 namespace oneac::simulation {
 namespace {
 
-constexpr double kViewRange = 180.0;  // [m] boxes beyond are hidden by nearer ones or tiny
 constexpr std::size_t kMostFaces = FaceRasteriser::kSky - 1;
 
 /// value + slope · u ≥ 0 as bounds on u.
@@ -55,12 +54,13 @@ RayFan::RayFan(const PinholeCamera& camera, const Eigen::Isometry3d& T_world_cam
   origin = T_world_cam.linear().col(2) - camera.cx * du - camera.cy * dv;
 }
 
-std::vector<Face> faces_towards(const std::vector<Box>& boxes, const Eigen::Vector3d& centre) {
+std::vector<Face> faces_towards(const std::vector<Box>& boxes, const Eigen::Vector3d& centre,
+                                double range_m) {
   std::vector<Face> faces{ground()};
   for (std::size_t i = 0; i < boxes.size() && faces.size() + 3 < kMostFaces; ++i) {
     const Box& box = boxes[i];
     const Eigen::Vector3d nearest = centre.cwiseMax(box.low).cwiseMin(box.high);
-    if ((nearest - centre).norm() > kViewRange) continue;
+    if ((nearest - centre).norm() > range_m) continue;
     for (int axis = 0; axis < 3; ++axis) {
       if (centre[axis] > box.high[axis])
         faces.push_back(side(box, static_cast<int>(i), axis, true));

@@ -17,6 +17,12 @@ struct RayFan {
   RayFan(const PinholeCamera& camera, const Eigen::Isometry3d& T_world_cam);
 
   [[nodiscard]] Eigen::Vector3d ray(double u, double v) const { return origin + u * du + v * dv; }
+  /// The same with row v as its first.
+  [[nodiscard]] RayFan from_row(int v) const {
+    RayFan fan = *this;
+    fan.origin += v * dv;
+    return fan;
+  }
 
   Eigen::Vector3d centre;
   Eigen::Vector3d origin;  ///< ray of pixel (0, 0)
@@ -42,9 +48,13 @@ struct Face {
   }
 };
 
+/// Between facades, boxes farther away are hidden by nearer ones or tiny [m].
+inline constexpr double kViewInTown_m = 180.0;
+inline constexpr double kViewInTheOpen_m = 450.0;
+
 /// The ground, and the sides of the boxes that are turned towards the centre and near enough.
 [[nodiscard]] std::vector<Face> faces_towards(const std::vector<Box>& boxes,
-                                              const Eigen::Vector3d& centre);
+                                              const Eigen::Vector3d& centre, double range_m);
 
 /// Farther than this is sky [m].
 inline constexpr double kFarthest_m = 1000.0;

@@ -61,14 +61,14 @@ class DecalCanvas {
   Canvas canvas_;
 };
 
-void paint_lines(DecalCanvas& road, double length) {
-  road.rectangle({0.0, CrossSection::kRightEdge, length, kLine, kPaint});
-  road.rectangle({0.0, CrossSection::kLeftEdge - kLine, length, kLine, kPaint});
+void paint_lines(DecalCanvas& road, double length, double paint) {
+  road.rectangle({0.0, CrossSection::kRightEdge, length, kLine, paint});
+  road.rectangle({0.0, CrossSection::kLeftEdge - kLine, length, kLine, paint});
   constexpr double kDash = 2.0;
   constexpr double kGap = 3.0;
   double x = 0.0;
   while (x < length - kDash) {
-    road.rectangle({x, CrossSection::kCentreLine, kDash, kLine, kPaint});
+    road.rectangle({x, CrossSection::kCentreLine, kDash, kLine, paint});
     x += kDash + kGap;
   }
 }
@@ -122,33 +122,49 @@ void repair(RandomNumbers& random, DecalCanvas& road, double length) {
 
 }  // namespace
 
-Texture paint_asphalt(std::uint64_t seed) {
+RoadLook road_look(RoadSurface road) {
+  switch (road) {
+    case RoadSurface::kDark:
+      return {42.0F, 0.22, 0.25, true, false};
+    case RoadSurface::kDashes:
+      return {105.0F, 0.1, 1.0, false, false};
+    default:
+      return {105.0F, 1.0, 1.0, true, true};
+  }
+}
+
+Texture paint_asphalt(const RoadLook& look, std::uint64_t seed) {
   RandomNumbers random(seed ^ 0x61737068616c74ULL);
-  Canvas canvas(kAsphaltSide, kAsphaltSide, 105.0F);
-  canvas.dead_leaves(random, {1.5, 200.0, 0.3, 11.0, 0.05});
-  for (int i = 0; i < 60; ++i) canvas.crack(random, random.integer(20, 80), 1.2, 60.0);
-  canvas.dead_leaves(random, {1.5, 28.0, 0.06, 27.0, 0.1});  // stones, leaves, stains
-  canvas.grain(random, 5.0);
+  if (!look.grain) return {Canvas(16, 16, look.tone), kAsphaltTexel};
+  Canvas canvas(kAsphaltSide, kAsphaltSide, look.tone);
+  canvas.dead_leaves(random, {1.5, 200.0, 0.3, look.structure * 11.0, 0.05});
+  const double crack = look.tone - look.structure * 45.0;
+  for (int i = 0; i < 60; ++i) canvas.crack(random, random.integer(20, 80), 1.2, crack);
+  // Stones, leaves, stains.
+  canvas.dead_leaves(random, {1.5, 28.0, 0.06, look.structure * 27.0, 0.1});
+  canvas.grain(random, look.structure * 5.0);
   return {canvas, kAsphaltTexel};
 }
 
-Texture paint_road_tone(std::uint64_t seed) {
+Texture paint_road_tone(const RoadLook& look, std::uint64_t seed) {
   RandomNumbers random(seed ^ 0x746f6e65ULL);
   Canvas canvas(kToneSide, kToneSide, static_cast<float>(kNeutral));
-  canvas.dead_leaves(random, {2.0, 120.0, 0.3, 8.0, 0.0});
+  canvas.dead_leaves(random, {2.0, 120.0, 0.3, look.structure * 8.0, 0.0});
   return {canvas, kToneTexel};
 }
 
-RoadDecal paint_decal(const Leg& leg, std::uint64_t seed) {
+RoadDecal paint_decal(const RoadLook& look, const Leg& leg, std::uint64_t seed) {
   RandomNumbers random(seed);
   const Eigen::Vector2d low(0.0, -6.4);
   const Eigen::Vector2d high(leg.length_m, 9.6);
   DecalCanvas road(low, high);
-  pave(random, road, low.y() + 0.2, -4.6, leg.length_m);
-  pave(random, road, 8.0, high.y() - 0.2, leg.length_m);
-  repair(random, road, leg.length_m);
-  paint_lines(road, leg.length_m);
-  paint_zebra(random, road, leg.length_m - 5.0);
+  if (look.details) {
+    pave(random, road, low.y() + 0.2, -4.6, leg.length_m);
+    pave(random, road, 8.0, high.y() - 0.2, leg.length_m);
+    repair(random, road, leg.length_m);
+  }
+  paint_lines(road, leg.length_m, look.paint * kPaint);
+  if (look.details) paint_zebra(random, road, leg.length_m - 5.0);
   return {low, high, {road.texels(), kDecalTexel}};
 }
 

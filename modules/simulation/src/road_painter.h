@@ -17,12 +17,22 @@ struct RoadDecal {
   Texture texture;  ///< u along x, v along y, from `low`; differences from kNeutral
 };
 
+/// How much of the road's structure is to be seen.
+struct RoadLook {
+  float tone;        ///< of the asphalt [grey levels]
+  double structure;  ///< contrast of asphalt and markings against the textured road's [-]
+  double paint;      ///< the same of the markings
+  bool grain;        ///< stones, cracks, speckle
+  bool details;      ///< paving, repairs, zebra crossings
+};
+[[nodiscard]] RoadLook road_look(RoadSurface road);
+
 /// Asphalt: stones, speckle, stains and cracks of all sizes; 25.6 m before it repeats.
-[[nodiscard]] Texture paint_asphalt(std::uint64_t seed);
+[[nodiscard]] Texture paint_asphalt(const RoadLook& look, std::uint64_t seed);
 /// Slow changes of tone, 37 m before they repeat: laid askew over the asphalt, so that no two
 /// places of the road look alike.
-[[nodiscard]] Texture paint_road_tone(std::uint64_t seed);
+[[nodiscard]] Texture paint_road_tone(const RoadLook& look, std::uint64_t seed);
 /// Lines, zebra crossing, patches, manholes, cracks, paving slabs of one street.
-[[nodiscard]] RoadDecal paint_decal(const Leg& leg, std::uint64_t seed);
+[[nodiscard]] RoadDecal paint_decal(const RoadLook& look, const Leg& leg, std::uint64_t seed);
 
 }  // namespace oneac::simulation

@@ -17,7 +17,15 @@ constexpr double kShortestStreet = 32.0;  // [m] room to reach cruising speed be
 constexpr double kLongestStreet = 46.0;   // [m]
 constexpr double kSightMargin =
     120.0;  // [m] of street beyond the last frame, so that it does not end
-constexpr double kStopPosition = 0.5;  // of the street's length
+constexpr double kStopPosition = 0.5;                     // of the street's length
+constexpr double kStopAlone = 30.0;                       // [m] from where a straight route begins
+constexpr double kEntryAngle = kQuarterTurn * 2.0 / 3.0;  // aside, at a roundabout
+constexpr double kEntryRadius = 10.0;                     // [m]
+constexpr double kRoundaboutRadius = 14.0;                // [m] of the lane
+constexpr double kShortestGo = 10.0;                      // [m] between two stops of a queue
+constexpr double kLongestGo = 22.0;                       // [m]
+constexpr double kShortestWait = 1.0;                     // [s] of a stop in a queue
+constexpr double kLongestWait = 3.5;                      // [s]
 
 Eigen::Vector2d direction(double angle) {
   return {std::cos(angle), std::sin(angle)};
@@ -52,7 +60,7 @@ Eigen::Vector2d Leg::to_leg(const Eigen::Vector2d& p_world) const {
 }
 
 Route::Route(const SimulationOptions& options, double duration_s) : cruise_mps_(options.speed_mps) {
-  lay(options, duration_s);
+  lay(options, duration_s * cruise_mps_ + kSightMargin);
   set_speeds(options);
   set_times();
 }
@@ -82,21 +90,82 @@ void Route::append_bend(int quadrant, int turn) {
   end_heading_ = kQuarterTurn * (quadrant + turn);
 }
 
-void Route::lay(const SimulationOptions& options, double duration_s) {
+/// Right into it, round it to the left, right out of it: 30 degrees each way before the circle
+/// proper; as a whole a quarter turn to the left or straight on.
+void Route::append_roundabout(int quadrant, int turn) {
+  const auto arc = [this](double angle, double radius) {
+    const double share =
+        kTransitionSteps * kStep / radius;  // half of it is lost in each transition
+    const int steps = static_cast<int>((std::abs(angle) - share) * radius / kStep);
+    const double curvature = angle / (kStep * (steps + kTransitionSteps));
+    append(kTransitionSteps, 0.0, curvature);
+    append(steps, curvature, curvature);
+    append(kTransitionSteps, curvature, 0.0);
+  };
+  arc(-kEntryAngle, kEntryRadius);
+  arc(2.0 * kEntryAngle + turn * kQuarterTurn, kRoundaboutRadius);
+  arc(-kEntryAngle, kEntryRadius);
+  end_heading_ = kQuarterTurn * (quadrant + turn);
+}
+
+void Route::wait_at(std::size_t node, double wait_s) {
+  nodes_[node].wait_s = wait_s;
+  const Leg& leg = legs_.back();
+  halts_.push_back({legs_.size() - 1, node, leg.to_leg(nodes_[node].position).x()});
+}
+
+void Route::lay(const SimulationOptions& options, double needed_m) {
+  switch (options.route) {
+    case RouteKind::kStreet:
+      return lay_streets(options, needed_m);
+    case RouteKind::kRoundabout:
+      return lay_roundabouts(options, needed_m);
+    default:
+      return lay_straight(options, needed_m);
+  }
+}
+
+void Route::lay_streets(const SimulationOptions& options, double needed_m) {
   RandomNumbers random(options.seed ^ 0x726f757465ULL);
-  const double needed = duration_s * cruise_mps_ + kSightMargin;
   int turn = random.chance(0.5) ? 1 : -1;
   int quadrant = 0;
-  while (static_cast<double>(nodes_.size()) * kStep < needed) {
+  while (static_cast<double>(nodes_.size()) * kStep < needed_m) {
     const int steps = static_cast<int>(random.uniform(kShortestStreet, kLongestStreet) / kStep);
     const std::size_t first = nodes_.size();
     append_straight(steps, quadrant);
     if (legs_.size() % 2 == 0) {
-      nodes_[first + static_cast<std::size_t>(kStopPosition * steps)].wait_s = options.stop_s;
+      wait_at(first + static_cast<std::size_t>(kStopPosition * steps), options.stop_s);
     }
     append_bend(quadrant, turn);
     quadrant += turn;
     turn = -turn;
+  }
+}
+
+void Route::lay_straight(const SimulationOptions& options, double needed_m) {
+  append_straight(static_cast<int>(needed_m / kStep), 0);
+  if (options.route == RouteKind::kStraight) {
+    wait_at(static_cast<std::size_t>(kStopAlone / kStep), options.stop_s);
+    return;
+  }
+  RandomNumbers random(options.seed ^ 0x73746f70ULL);
+  double x = random.uniform(kShortestGo, kLongestGo);
+  while (x < needed_m - kSightMargin) {
+    wait_at(static_cast<std::size_t>(x / kStep), random.uniform(kShortestWait, kLongestWait));
+    x += random.uniform(kShortestGo, kLongestGo);
+  }
+}
+
+void Route::lay_roundabouts(const SimulationOptions& options, double needed_m) {
+  RandomNumbers random(options.seed ^ 0x726f756eULL);
+  int quadrant = 0;
+  int turn = 1;
+  while (static_cast<double>(nodes_.size()) * kStep < needed_m) {
+    append_straight(static_cast<int>(random.uniform(kShortestStreet, kLongestStreet) / kStep),
+                    quadrant);
+    append_roundabout(quadrant, turn);
+    quadrant += turn;
+    turn = 1 - turn;  // to the left, straight on, to the left ...
   }
 }
 
@@ -137,6 +206,15 @@ PlanarState Route::at(double time_s) const {
   state.heading += node.curvature * s;
   state.speed += state.acceleration * moving_s;
   return state;
+}
+
+std::vector<Stop> Route::stops() const {
+  std::vector<Stop> stops;
+  for (const Halt& halt : halts_) {
+    const Node& node = nodes_[halt.node];
+    if (node.wait_s > 0.0) stops.push_back({legs_[halt.leg], halt.x, node.time_s, node.wait_s});
+  }
+  return stops;
 }
 
 std::vector<Eigen::Vector2d> Route::path() const {

@@ -29,9 +29,17 @@ struct PlanarState {
   double acceleration = 0.0;                           ///< along the path [m/s²]
 };
 
+/// Where and when the vehicle stands.
+struct Stop {
+  Leg leg;
+  double x = 0.0;       ///< along the leg [m]
+  double time_s = 0.0;  ///< of arrival
+  double wait_s = 0.0;
+};
+
 /// Where the vehicle drives and when: straights and quarter-circle bends with transition curves,
 /// left and right in turn (so that the route never meets itself), speed limited by cornering,
-/// acceleration, braking and stops.
+/// acceleration, braking and stops; or another RouteKind.
 class Route {
  public:
   /// Long enough for a drive of the given duration and some way beyond.
@@ -39,6 +47,8 @@ class Route {
 
   [[nodiscard]] PlanarState at(double time_s) const;
   [[nodiscard]] const std::vector<Leg>& legs() const { return legs_; }
+  [[nodiscard]] double cruise_mps() const { return cruise_mps_; }
+  [[nodiscard]] std::vector<Stop> stops() const;
   /// Points of the path, about a metre apart.
   [[nodiscard]] std::vector<Eigen::Vector2d> path() const;
 
@@ -56,11 +66,23 @@ class Route {
   void append(int steps, double curvature_from, double curvature_to);
   void append_straight(int steps, int quadrant);
   void append_bend(int quadrant, int turn);
-  void lay(const SimulationOptions& options, double duration_s);
+  void append_roundabout(int quadrant, int turn);
+  void wait_at(std::size_t node, double wait_s);
+  void lay(const SimulationOptions& options, double needed_m);
+  void lay_streets(const SimulationOptions& options, double needed_m);
+  void lay_straight(const SimulationOptions& options, double needed_m);
+  void lay_roundabouts(const SimulationOptions& options, double needed_m);
   void set_speeds(const SimulationOptions& options);
   void set_times();
 
+  struct Halt {
+    std::size_t leg;
+    std::size_t node;
+    double x;
+  };
+
   std::vector<Leg> legs_;
+  std::vector<Halt> halts_;
   std::vector<Node> nodes_;
   Eigen::Vector2d end_ = Eigen::Vector2d::Zero();
   double end_heading_ = 0.0;

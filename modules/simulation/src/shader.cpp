@@ -2,6 +2,7 @@
 
 #include "facade_painter.h"
 #include "random_numbers.h"
+#include "sky_painter.h"
 
 #include <algorithm>
 #include <cmath>
@@ -11,6 +12,10 @@ namespace {
 
 constexpr float kToneCos = 0.7986F;  // the slow tone lies 37° askew over the asphalt
 constexpr float kToneSin = 0.6018F;
+
+constexpr double kCeiling_m = 500.0;  // of the clouds
+constexpr float kOvercast = 190.0F;   // what the haze above the horizon looks like
+constexpr float kHaze = 0.03F;        // sine of the elevation below which no cloud is seen
 
 /// Light from the south-west and above: corners of buildings stand out.
 float illumination(const Face& face, bool upper) {
@@ -51,21 +56,35 @@ Eigen::Matrix2f leg_from_world(const Leg& leg) {
   return R;
 }
 
+Texture paint_box(const Box& box, std::uint64_t wall_seed, std::uint64_t obstacle_seed) {
+  switch (box.kind) {
+    case Box::Kind::kBuilding:
+    case Box::Kind::kFarBuilding:
+      return paint_facade(box, wall_seed);
+    case Box::Kind::kTruck:
+      return paint_truck(box, obstacle_seed);
+    default:
+      return paint_obstacle(box, obstacle_seed);
+  }
+}
+
 }  // namespace
 
-Shader::Shader(const Route& route, const std::vector<Box>& boxes, std::uint64_t seed)
-    : legs_(route.legs()), asphalt_(paint_asphalt(seed)), tone_(paint_road_tone(seed)) {
-  const auto own_seed = [seed](std::size_t kind, std::size_t i) {
+Shader::Shader(const Route& route, const std::vector<Box>& boxes, const SimulationOptions& options)
+    : legs_(route.legs()),
+      asphalt_(paint_asphalt(road_look(options.road), options.seed)),
+      tone_(paint_road_tone(road_look(options.road), options.seed)) {
+  const RoadLook look = road_look(options.road);
+  const auto own_seed = [seed = options.seed](std::size_t kind, std::size_t i) {
     return mix_bits(seed ^ (kind << 32U)) + i;
   };
   for (std::size_t i = 0; i < legs_.size(); ++i) {
-    decals_.push_back(paint_decal(legs_[i], own_seed(1, i)));
+    decals_.push_back(paint_decal(look, legs_[i], own_seed(1, i)));
   }
   for (std::size_t i = 0; i < boxes.size(); ++i) {
-    const bool building = boxes[i].kind == Box::Kind::kBuilding;
-    box_textures_.push_back(building ? paint_facade(boxes[i], own_seed(2, i))
-                                     : paint_obstacle(boxes[i], own_seed(3, i)));
+    box_textures_.push_back(paint_box(boxes[i], own_seed(2, i), own_seed(3, i)));
   }
+  if (options.scenery == Scenery::kFar) clouds_ = paint_clouds(options.seed);
 }
 
 float Shader::face(const RayFan& fan, const Face& face, const std::vector<Box>& boxes, double u,
@@ -114,9 +133,16 @@ float Shader::wall(const Face& face, const Box& box, const Footprint& patch) con
   return light * texture.sample(local);
 }
 
-float Shader::sky(const Eigen::Vector3d& ray) {
+float Shader::sky(const RayFan& fan, double u, double v) const {
+  const Eigen::Vector3d ray = fan.ray(u, v);
   const auto rise = static_cast<float>(ray.z() / ray.norm());
-  return 228.0F - 40.0F * std::clamp(rise, 0.0F, 1.0F);
+  if (!clouds_) return 228.0F - 40.0F * std::clamp(rise, 0.0F, 1.0F);
+  if (rise < kHaze) return kOvercast;
+  Face ceiling;
+  ceiling.offset = kCeiling_m;
+  const float cloud = clouds_->sample(footprint(fan, ceiling, u, v));
+  const float clear = std::min(1.0F, (rise - kHaze) / (3.0F * kHaze));
+  return kOvercast + clear * (cloud - kOvercast);
 }
 
 }  // namespace oneac::simulation

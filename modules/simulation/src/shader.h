@@ -5,7 +5,7 @@
 
 #include <Eigen/Core>
 
-#include <cstdint>
+#include <optional>
 #include <vector>
 
 namespace oneac::simulation {
@@ -13,13 +13,14 @@ namespace oneac::simulation {
 /// What every surface of the town looks like.
 class Shader {
  public:
-  Shader(const Route& route, const std::vector<Box>& boxes, std::uint64_t seed);
+  Shader(const Route& route, const std::vector<Box>& boxes, const SimulationOptions& options);
 
   /// Grey level of a face at a pixel, averaged over the pixel. @pre the face is in front there
   /// @param boxes  as they stand now: the ones given, moved
   [[nodiscard]] float face(const RayFan& fan, const Face& face, const std::vector<Box>& boxes,
                            double u, double v) const;
-  [[nodiscard]] static float sky(const Eigen::Vector3d& ray);
+  /// The same of the sky: plain, or clouds.
+  [[nodiscard]] float sky(const RayFan& fan, double u, double v) const;
 
  private:
   [[nodiscard]] float ground(const Footprint& patch) const;
@@ -30,6 +31,7 @@ class Shader {
   std::vector<Texture> box_textures_;
   Texture asphalt_;
   Texture tone_;
+  std::optional<Texture> clouds_;
 };
 
 }  // namespace oneac::simulation

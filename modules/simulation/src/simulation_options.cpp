@@ -16,6 +16,16 @@ void require_within(const char* field, double value, double low, double high) {
           std::string("SimulationOptions.") + field, value, bound.str());
 }
 
+/// Vehicles are blocks along the axes of the world: along the road they cannot take bends.
+void require_straight_for(Traffic traffic, RouteKind route) {
+  const bool along = traffic == Traffic::kOvertaking || traffic == Traffic::kOncoming ||
+                     traffic == Traffic::kTruck;
+  if (!along || route == RouteKind::kStraight || route == RouteKind::kStopAndGo) return;
+  throw std::invalid_argument(
+      "SimulationOptions.traffic along the road takes no bends: route must be kStraight or "
+      "kStopAndGo");
+}
+
 }  // namespace
 
 void SimulationOptions::validate() const {
@@ -30,7 +40,10 @@ void SimulationOptions::validate() const {
   require_within("camera_height_m", camera_height_m, 0.3, 3.5);
   require_within("camera_forward_m", camera_forward_m, -3.0, 3.0);
   require_within("camera_tilt_deg", camera_tilt_deg, -45.0, 45.0);
-  require_within("speed_mps", speed_mps, 0.5, 20.0);
+  require_within("camera_left_m", camera_left_m, -2.0, 2.0);
+  require_within("camera_roll_deg", camera_roll_deg, -180.0, 180.0);
+  require_within("camera_yaw_deg", camera_yaw_deg, -180.0, 180.0);
+  require_within("speed_mps", speed_mps, 0.5, 40.0);
   require_within("acceleration_mps2", acceleration_mps2, 0.1, 8.0);
   require_within("braking_mps2", braking_mps2, 0.1, 8.0);
   require_within("stop_s", stop_s, 0.0, 600.0);
@@ -40,6 +53,11 @@ void SimulationOptions::validate() const {
   require_within("dark_from_s", dark_from_s, 0.0, 1e6);
   require_within("dark_s", dark_s, 0.0, 1e6);
   require_within("gps_noise_m", gps_noise_m, 0.0, 100.0);
+  require_within("truck_gap_m", truck_gap_m, 2.0, 100.0);
+  require_within("truck_gap_swing_m", truck_gap_swing_m, 0.0, truck_gap_m - 1.0);
+  require_within("bonnet_share", bonnet_share, 0.0, 0.5);
+  require_within("rolling_shutter_s", rolling_shutter_s, 0.0, 1.0 / fps);
+  require_straight_for(traffic, route);
 }
 
 }  // namespace oneac

@@ -13,7 +13,7 @@ namespace oneac::simulation {
 struct Box {
   Eigen::Vector3d low;   ///< corner [m]; z = 0
   Eigen::Vector3d high;  ///< opposite corner [m]
-  enum class Kind { kBuilding, kVehicle, kPost } kind = Kind::kBuilding;
+  enum class Kind { kBuilding, kVehicle, kPost, kFarBuilding, kTruck } kind = Kind::kBuilding;
 };
 
 /// Half of the street's cross-section, from the vehicle's lane outwards [m].
@@ -27,5 +27,8 @@ struct CrossSection {
 /// the view across the junctions; parked vehicles, bins and posts at the kerbs. Nothing stands in
 /// the way.
 [[nodiscard]] std::vector<Box> lay_out_street(const Route& route, std::uint64_t seed);
+
+/// Houses that stand at least 110 m from the route, and a lamp post now and then.
+[[nodiscard]] std::vector<Box> lay_out_open_land(const Route& route, std::uint64_t seed);
 
 }  // namespace oneac::simulation

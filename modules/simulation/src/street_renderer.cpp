@@ -10,6 +10,8 @@
 namespace oneac::simulation {
 namespace {
 
+constexpr int kRowsAtOnce = 4;  // of a rolling shutter: below a quarter of a millisecond
+
 class PixelPainter {
  public:
   PixelPainter(const Shader& shader, const RayFan& fan, const std::vector<Box>& boxes,
@@ -32,7 +34,7 @@ class PixelPainter {
     return visible_.face(2 * u + k % 2, 2 * v + k / 2);
   }
   [[nodiscard]] float look(std::uint16_t id, double u, double v) const {
-    if (id == FaceRasteriser::kSky) return Shader::sky(fan_.ray(u, v));
+    if (id == FaceRasteriser::kSky) return shader_.sky(fan_, u, v);
     return shader_.face(fan_, faces_[id], boxes_, u, v);
   }
 
@@ -44,9 +46,14 @@ class PixelPainter {
 };
 
 /// The town's boxes, then the traffic's where they start.
-std::vector<Box> with_traffic(std::vector<Box> boxes, const std::vector<CrossingVehicle>& traffic) {
-  for (const CrossingVehicle& vehicle : traffic) boxes.push_back(vehicle.at_start);
+std::vector<Box> with_traffic(std::vector<Box> boxes, const std::vector<MovingVehicle>& traffic) {
+  for (const MovingVehicle& vehicle : traffic) boxes.push_back(vehicle.at_start);
   return boxes;
+}
+
+std::vector<Box> standing_boxes(const Route& route, const SimulationOptions& options) {
+  return options.scenery == Scenery::kFar ? lay_out_open_land(route, options.seed)
+                                          : lay_out_street(route, options.seed);
 }
 
 static_assert(FaceRasteriser::kPerSide == 2, "PixelPainter reads 2×2 samples per pixel");
@@ -58,12 +65,13 @@ bool contains(const Face& face, const Eigen::Vector3d& X) {
 
 }  // namespace
 
-StreetRenderer::StreetRenderer(const PinholeCamera& camera, const Route& route, std::uint64_t seed,
-                               std::vector<CrossingVehicle> traffic)
+StreetRenderer::StreetRenderer(const PinholeCamera& camera, const Route& route,
+                               const SimulationOptions& options, std::vector<MovingVehicle> traffic)
     : camera_(camera),
+      view_range_m_(options.scenery == Scenery::kFar ? kViewInTheOpen_m : kViewInTown_m),
       traffic_(std::move(traffic)),
-      boxes_(with_traffic(lay_out_street(route, seed), traffic_)),
-      shader_(route, boxes_, seed) {}
+      boxes_(with_traffic(standing_boxes(route, options), traffic_)),
+      shader_(route, boxes_, options) {}
 
 std::vector<Box> StreetRenderer::boxes_at(double time_s) const {
   std::vector<Box> boxes = boxes_;
@@ -74,17 +82,34 @@ std::vector<Box> StreetRenderer::boxes_at(double time_s) const {
 
 std::vector<float> StreetRenderer::render(const Eigen::Isometry3d& T_world_cam,
                                           double time_s) const {
-  const RayFan fan(camera_, T_world_cam);
-  const std::vector<Box> boxes = boxes_at(time_s);
-  const std::vector<Face> faces = faces_towards(boxes, fan.centre);
-  const FaceRasteriser visible(fan, faces, camera_.width, camera_.height);
-  const PixelPainter painter(shader_, fan, boxes, faces, visible);
   std::vector<float> grey;
   grey.reserve(static_cast<std::size_t>(camera_.width) * static_cast<std::size_t>(camera_.height));
-  for (int v = 0; v < camera_.height; ++v) {
-    for (int u = 0; u < camera_.width; ++u) grey.push_back(painter.pixel(u, v));
+  render_rows(RayFan(camera_, T_world_cam), time_s, camera_.height, grey);
+  return grey;
+}
+
+std::vector<float> StreetRenderer::render_rolling(const PoseAt& T_world_cam, double time_s,
+                                                  double shutter_s) const {
+  std::vector<float> grey;
+  grey.reserve(static_cast<std::size_t>(camera_.width) * static_cast<std::size_t>(camera_.height));
+  for (int v = 0; v < camera_.height; v += kRowsAtOnce) {
+    const int rows = std::min(kRowsAtOnce, camera_.height - v);
+    const double now = time_s + shutter_s * (v + 0.5 * (rows - 1)) / (camera_.height - 1);
+    render_rows(RayFan(camera_, T_world_cam(now)).from_row(v), now, rows, grey);
   }
   return grey;
+}
+
+/// Appends the first rows of the fan.
+void StreetRenderer::render_rows(const RayFan& fan, double time_s, int rows,
+                                 std::vector<float>& grey) const {
+  const std::vector<Box> boxes = boxes_at(time_s);
+  const std::vector<Face> faces = faces_towards(boxes, fan.centre, view_range_m_);
+  const FaceRasteriser visible(fan, faces, camera_.width, rows);
+  const PixelPainter painter(shader_, fan, boxes, faces, visible);
+  for (int v = 0; v < rows; ++v) {
+    for (int u = 0; u < camera_.width; ++u) grey.push_back(painter.pixel(u, v));
+  }
 }
 
 std::optional<Eigen::Vector3d> StreetRenderer::surface_point(const Eigen::Isometry3d& T_world_cam,
@@ -94,7 +119,7 @@ std::optional<Eigen::Vector3d> StreetRenderer::surface_point(const Eigen::Isomet
   const Eigen::Vector3d ray = fan.ray(u_px.x(), u_px.y());
   double nearest = 1.0 / kFarthest_m;
   std::optional<Eigen::Vector3d> hit;
-  for (const Face& face : faces_towards(boxes_at(time_s), fan.centre)) {
+  for (const Face& face : faces_towards(boxes_at(time_s), fan.centre, view_range_m_)) {
     const double w = face.inverse_depth(fan, ray);
     if (!(w > nearest)) continue;
     const Eigen::Vector3d X = fan.centre + ray / w;

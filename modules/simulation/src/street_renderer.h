@@ -9,6 +9,7 @@
 #include <Eigen/Geometry>
 
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <vector>
 
@@ -18,21 +19,27 @@ namespace oneac::simulation {
 /// pixel shows.
 class StreetRenderer {
  public:
-  StreetRenderer(const PinholeCamera& camera, const Route& route, std::uint64_t seed,
-                 std::vector<CrossingVehicle> traffic);
+  StreetRenderer(const PinholeCamera& camera, const Route& route, const SimulationOptions& options,
+                 std::vector<MovingVehicle> traffic);
 
   /// Grey levels at a time of the drive [s], row by row.
   [[nodiscard]] std::vector<float> render(const Eigen::Isometry3d& T_world_cam,
                                           double time_s) const;
+  using PoseAt = std::function<Eigen::Isometry3d(double time_s)>;
+  /// The same by a rolling shutter: the first row at time_s, the last shutter_s later.
+  [[nodiscard]] std::vector<float> render_rolling(const PoseAt& T_world_cam, double time_s,
+                                                  double shutter_s) const;
   [[nodiscard]] std::optional<Eigen::Vector3d> surface_point(const Eigen::Isometry3d& T_world_cam,
                                                              const Eigen::Vector2d& u_px,
                                                              double time_s) const;
 
  private:
   [[nodiscard]] std::vector<Box> boxes_at(double time_s) const;
+  void render_rows(const RayFan& fan, double time_s, int rows, std::vector<float>& grey) const;
 
   PinholeCamera camera_;
-  std::vector<CrossingVehicle> traffic_;
+  double view_range_m_;
+  std::vector<MovingVehicle> traffic_;
   std::vector<Box> boxes_;  ///< what stands, then the traffic where it starts
   Shader shader_;
 };

@@ -1,12 +1,13 @@
 #include "oneac/simulation/street_simulator.h"
 
+#include "along_traffic.h"
+#include "camera_mount.h"
+#include "picture_effects.h"
 #include "random_numbers.h"
 #include "street_renderer.h"
 #include "suspension.h"
 
 #include "oneac/geometry/angles.h"
-#include "oneac/geometry/camera_frame.h"
-#include "oneac/geometry/leveling.h"
 
 #include <cmath>
 #include <stdexcept>
@@ -37,23 +38,6 @@ double duration(const SimulationOptions& options) {
   return (options.frames - 1) / options.fps;
 }
 
-PinholeCamera camera_of(const SimulationOptions& options) {
-  PinholeCamera camera;
-  camera.width = options.width_px;
-  camera.height = options.height_px;
-  camera.fx = camera.fy = options.focal_px;
-  camera.cx = 0.5 * (options.width_px - 1);
-  camera.cy = 0.5 * (options.height_px - 1);
-  return camera;
-}
-
-Eigen::Isometry3d mount_of(const SimulationOptions& options) {
-  Eigen::Isometry3d T = CameraFrame::forward_looking_mount();
-  T.linear() = T.linear() * leveling_rotation({options.camera_tilt_deg * kDegree, 0.0});
-  T.translation() << options.camera_forward_m, 0.0, options.camera_height_m;
-  return T;
-}
-
 Eigen::Matrix3d body_rotation(double heading, const BodyAttitude& body) {
   return (Eigen::AngleAxisd(heading, Eigen::Vector3d::UnitZ()) *
           Eigen::AngleAxisd(body.pitch, Eigen::Vector3d::UnitY()) *
@@ -74,12 +58,6 @@ Eigen::Isometry3d slope_of(const SimulationOptions& options) {
   return T;
 }
 
-std::vector<simulation::CrossingVehicle> traffic_of(const SimulationOptions& options,
-                                                    const Route& route) {
-  if (!options.crossing_traffic) return {};
-  return simulation::crossing_traffic(route, duration(options));
-}
-
 double course_deg(double heading) {
   const double course = std::fmod(90.0 - heading / kDegree, 360.0);
   return course < 0.0 ? course + 360.0 : course;
@@ -95,16 +73,17 @@ const SimulationOptions& checked(const SimulationOptions& options) {
 struct StreetSimulator::Impl {
   explicit Impl(const SimulationOptions& chosen)
       : options(checked(chosen)),
-        camera(camera_of(options)),
-        T_vehicle_cam(mount_of(options)),
+        camera(simulation::camera_of(options)),
+        T_vehicle_cam(simulation::mount_of(options)),
         route(options, duration(options)),
-        suspension(options, route, duration(options)),
+        suspension(options, route, duration(options) + options.rolling_shutter_s),
         T_world_town(slope_of(options)),
-        renderer(camera, route, options.seed, traffic_of(options, route)) {}
+        renderer(camera, route, options, simulation::traffic_of(options, route, duration(options))),
+        effects(options) {}
 
   [[nodiscard]] SimulatedState state_at(double time_s) const;
-  [[nodiscard]] GreyImage image(const SimulatedFrame& frame, const Eigen::Isometry3d& T_world_cam,
-                                std::uint64_t side) const;
+  [[nodiscard]] GreyImage image(const SimulatedFrame& frame, int side) const;
+  [[nodiscard]] std::vector<float> rendered(double time_s, int side) const;
   [[nodiscard]] SimulatedGps gps_at(double time_s, RandomNumbers& random) const;
   [[nodiscard]] SimulatedImu imu_at(double time_s, RandomNumbers& random) const;
 
@@ -116,6 +95,7 @@ struct StreetSimulator::Impl {
   Eigen::Isometry3d
       T_world_town;  ///< the town is built on the plane Z = 0 and then put on its slope
   StreetRenderer renderer;
+  simulation::PictureEffects effects;
 };
 
 SimulatedState StreetSimulator::Impl::state_at(double time_s) const {
@@ -131,17 +111,27 @@ SimulatedState StreetSimulator::Impl::state_at(double time_s) const {
   return state;
 }
 
-GreyImage StreetSimulator::Impl::image(const SimulatedFrame& frame,
-                                       const Eigen::Isometry3d& T_world_cam,
-                                       std::uint64_t side) const {
-  const std::uint64_t key =
-      mix_bits(options.seed) + 2 * static_cast<std::uint64_t>(frame.index) + side;
+std::vector<float> StreetSimulator::Impl::rendered(double time_s, int side) const {
+  const Eigen::Translation3d to_the_right(side * options.baseline_m, 0.0, 0.0);
+  const auto T_town_cam = [this, &to_the_right, side](double t) -> Eigen::Isometry3d {
+    const Eigen::Isometry3d T_world_left = state_at(t).T_world_cam;
+    return T_world_town.inverse() * (side == 0 ? T_world_left : T_world_left * to_the_right);
+  };
+  if (options.rolling_shutter_s == 0.0) return renderer.render(T_town_cam(time_s), time_s);
+  return renderer.render_rolling(T_town_cam, time_s, options.rolling_shutter_s);
+}
+
+/// @param side  0: left, 1: right
+GreyImage StreetSimulator::Impl::image(const SimulatedFrame& frame, int side) const {
+  const std::uint64_t key = mix_bits(options.seed) + 2 * static_cast<std::uint64_t>(frame.index) +
+                            static_cast<std::uint64_t>(side);
   const double time_s = frame.state.time_s;
-  std::vector<float> grey = renderer.render(T_world_town.inverse() * T_world_cam, time_s);
+  std::vector<float> grey = rendered(time_s, side);
+  effects.apply(grey, time_s, side);
   if (time_s >= options.dark_from_s && time_s < options.dark_from_s + options.dark_s) {
     for (float& value : grey) value *= kDarkness;
   }
-  return simulation::expose(grey, camera.width, camera.height, options.image_noise, key);
+  return simulation::expose(grey, camera.width, camera.height, effects.noise(), key);
 }
 
 SimulatedGps StreetSimulator::Impl::gps_at(double time_s, RandomNumbers& random) const {
@@ -208,11 +198,8 @@ SimulatedFrame StreetSimulator::frame(std::size_t i) const {
   SimulatedFrame frame;
   frame.index = i;
   frame.state = state(i);
-  frame.left = impl_->image(frame, frame.state.T_world_cam, 0);
-  if (impl_->options.stereo) {
-    const Eigen::Translation3d to_the_right(impl_->options.baseline_m, 0.0, 0.0);
-    frame.right = impl_->image(frame, frame.state.T_world_cam * to_the_right, 1);
-  }
+  frame.left = impl_->image(frame, 0);
+  if (impl_->options.stereo) frame.right = impl_->image(frame, 1);
   return frame;
 }
 

@@ -78,7 +78,7 @@ TEST(DarkStretch, IsNearlyBlackAndEnds) {
 TEST(CrossingTraffic, PassesBeforeTheCamera) {
   SimulationOptions options = tiny_drive();
   const StreetSimulator empty(options);
-  options.crossing_traffic = true;
+  options.traffic = Traffic::kCrossing;
   const StreetSimulator busy(options);
   int frames_with_traffic = 0;
   for (std::size_t i = 0; i < 60; i += 2) {

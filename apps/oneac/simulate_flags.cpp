@@ -1,0 +1,124 @@
+#include "simulate_flags.h"
+
+#include "oneac/simulation/hard_drives.h"
+
+#include <map>
+#include <string>
+
+namespace oneac::app {
+namespace {
+
+template <class Kind>
+void add_kind(CLI::App& verb, const char* flag, Kind& value, const char* help,
+              const std::map<std::string, Kind>& names) {
+  verb.add_option(flag, value, help)->transform(CLI::CheckedTransformer(names));
+}
+
+void add_hard(CLI::App& verb, SimulationOptions& options) {
+  CLI::IsMember names([] {
+    std::vector<std::string> all;
+    for (const HardDrive& drive : hard_drives()) all.push_back(drive.name);
+    return all;
+  }());
+  verb.add_option_function<std::string>(
+          "--hard", [&options](const std::string& name) { options = hard_drive(name).options; },
+          "A kind of drive that is hard (docs/benchmarks/hard-drives.md); other flags change it")
+      ->check(names)
+      ->trigger_on_parse();
+}
+
+void add_camera_flags(CLI::App& verb, SimulationOptions& options) {
+  verb.add_option("--width", options.width_px, "[px]")->capture_default_str();
+  verb.add_option("--height", options.height_px, "[px]")->capture_default_str();
+  verb.add_option("--focal", options.focal_px, "[px]")->capture_default_str();
+  verb.add_option("--fps", options.fps, "[Hz]")->capture_default_str();
+  verb.add_option("--tilt-deg", options.camera_tilt_deg, "Camera, upwards [deg]")
+      ->capture_default_str();
+  verb.add_option("--mount-roll", options.camera_roll_deg,
+                  "Camera, right side down [deg]; 180: upside down")
+      ->capture_default_str();
+  verb.add_option("--mount-yaw", options.camera_yaw_deg, "Camera, to the left [deg]; 180: rear")
+      ->capture_default_str();
+  verb.add_option("--camera-height", options.camera_height_m, "Above the road [m]")
+      ->capture_default_str();
+  verb.add_option("--noise", options.image_noise, "Std. deviation [grey levels]")
+      ->capture_default_str();
+  verb.add_flag("--stereo", options.stereo, "Write stereo observations");
+  verb.add_option("--baseline", options.baseline_m, "Of the stereo pair [m]")
+      ->capture_default_str();
+}
+
+void add_picture_flags(CLI::App& verb, SimulationOptions& options) {
+  verb.add_option("--bonnet", options.bonnet_share,
+                  "Share of the picture's height that a bonnet hides; 0: none")
+      ->capture_default_str();
+  verb.add_flag("--rain", options.rain, "Drops on the windscreen");
+  verb.add_flag("--wiper", options.wiper, "A wiper sweeps the picture");
+  verb.add_flag("--exposure-jumps", options.exposure_jumps, "Another exposure every 1.1 s");
+  verb.add_flag("--night", options.night, "Headlights, noise, hot pixels");
+  verb.add_option("--rolling-shutter", options.rolling_shutter_s,
+                  "From the first row to the last [s]; the pose is that of the first")
+      ->capture_default_str();
+  verb.add_option("--dark-from", options.dark_from_s, "Nearly black images from here on [s] ...")
+      ->capture_default_str();
+  verb.add_option("--dark", options.dark_s, "... for so long [s]; 0: never")->capture_default_str();
+}
+
+void add_drive_flags(CLI::App& verb, SimulationOptions& options) {
+  verb.add_option("--frames", options.frames, "Number of images")->capture_default_str();
+  verb.add_option("--seed", options.seed, "Everything random follows from it")
+      ->capture_default_str();
+  verb.add_option("--speed", options.speed_mps, "On straights [m/s]")->capture_default_str();
+  verb.add_option("--stop", options.stop_s, "Standing on every second street [s]; 0: none")
+      ->capture_default_str();
+  verb.add_option("--suspension-pitch", options.suspension_pitch_deg, "Std. deviation [deg]")
+      ->capture_default_str();
+  verb.add_option("--suspension-roll", options.suspension_roll_deg, "Std. deviation [deg]")
+      ->capture_default_str();
+  verb.add_option("--slope", options.slope_percent, "Of the whole town, along the first street [%]")
+      ->capture_default_str();
+  verb.add_option("--gps-noise", options.gps_noise_m, "Std. deviation per axis [m]")
+      ->capture_default_str();
+}
+
+void add_scene_flags(CLI::App& verb, SimulationOptions& options) {
+  add_kind<RouteKind>(verb, "--route", options.route, "Where the vehicle drives",
+                      {{"street", RouteKind::kStreet},
+                       {"straight", RouteKind::kStraight},
+                       {"stop-and-go", RouteKind::kStopAndGo},
+                       {"roundabout", RouteKind::kRoundabout}});
+  add_kind<Scenery>(verb, "--scenery", options.scenery, "Facades, or clouds and far houses",
+                    {{"town", Scenery::kTown}, {"far", Scenery::kFar}});
+  add_kind<RoadSurface>(verb, "--road", options.road, "What the road shows",
+                        {{"textured", RoadSurface::kTextured},
+                         {"dark", RoadSurface::kDark},
+                         {"dashes", RoadSurface::kDashes}});
+  add_kind<Traffic>(verb, "--traffic", options.traffic,
+                    "What moves; overtaking, oncoming and truck on straight and stop-and-go only",
+                    {{"none", Traffic::kNone},
+                     {"crossing", Traffic::kCrossing},
+                     {"overtaking", Traffic::kOvertaking},
+                     {"oncoming", Traffic::kOncoming},
+                     {"truck", Traffic::kTruck},
+                     {"bus", Traffic::kBus}});
+  verb.add_flag_callback(
+      "--crossing-traffic", [&options] { options.traffic = Traffic::kCrossing; },
+      "The same as --traffic crossing");
+  verb.add_option("--truck-gap", options.truck_gap_m, "From the camera to the truck [m]")
+      ->capture_default_str();
+  verb.add_option("--truck-gap-swing", options.truck_gap_swing_m,
+                  "By how much it swings in 12 s [m]; 0: constant")
+      ->capture_default_str();
+}
+
+}  // namespace
+
+void add_simulation_flags(CLI::App& verb, SimulationOptions& options) {
+  add_hard(verb, options);
+  add_drive_flags(verb, options);
+  add_scene_flags(verb, options);
+  add_camera_flags(verb, options);
+  add_picture_flags(verb, options);
+}
+
+}  // namespace oneac::app
