@@ -218,13 +218,25 @@ RoadStep step_of(const Row& pair, const Row& tilt, double height, const Settings
   step.information = motion_information(s.value("--rotation-sigma", 0.0004), s.value("--direction-sigma", 0.01));
   const double pitch = number(tilt, "pitch_up_deg") + number(tilt, "suspension_pitch_deg");
   step.R_level_cam = leveling_rotation({pitch * kDegree, number(tilt, "roll_right_deg") * kDegree});
-  step.pitch_sigma = kDegree * std::clamp(std::hypot(number(tilt, "pitch_sigma_deg"), number(tilt, "suspension_sigma_deg")), 0.1, 1.0);
+  step.pitch_sigma = kDegree * std::clamp(number(tilt, "suspension_sigma_deg"), s.value("--least-pitch-sigma", 0.1), 1.0);
   step.roll_sigma = kDegree * std::clamp(number(tilt, "roll_sigma_deg"), 0.3, 1.5);
   step.max_length = s.value("--max-length", 3.0) / height;
   return step;
 }
 
+/// Options by their names, "--road.heave 0.01".
+struct ReadOptions {
+  const Settings& settings;
+
+  template <class Field>
+  void operator()(const char* key, Field& field, const char*, const char*) const {
+    field = static_cast<Field>(settings.value(std::string("--road.") + key, field));
+  }
+};
+
 void run(const Settings& s) {
+  RoadAlignmentOptions options;
+  describe(ReadOptions{s}, options);
   const auto files = image_files(s);
   const auto pairs = read_csv(s.run + "/relative_poses.csv"), tilts = read_csv(s.run + "/tilt.csv");
   const auto intrinsics = split(s.text("--camera"), ',');
@@ -269,7 +281,8 @@ void run(const Settings& s) {
       for (int v = below; v < camera.height; ++v) std::fill_n(mask.row(v), camera.width, std::uint8_t{0});
     }
     const double before = thread_cpu_ms();
-    const RoadAlignment result = align_road(first.road, second.road, camera, step, mask.view());
+    const RoadAlignment result =
+        align_road(first.road, second.road, camera, step, mask.view(), options);
     tally.ms.push_back(thread_cpu_ms() - before);
     ++tally.status[to_string(result.status)];
     const double metres = height * result.length;

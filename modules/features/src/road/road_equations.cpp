@@ -3,6 +3,7 @@
 #include "oneac/geometry/relative_pose.h"
 
 #include <Eigen/Geometry>
+#include <Eigen/LU>
 
 #include <algorithm>
 #include <cmath>
@@ -91,7 +92,6 @@ void read_line(const RoadGrid& grid, const std::vector<float>& values, const Der
     const auto k = static_cast<std::size_t>(line.count);
     if (!grid.usable[i] || !derivative(grid.rays[i], line.w[k], line.J[k])) continue;
     line.t[k] = values[i];
-    line.J[k](kUnknowns) = -values[i];
     ++line.count;
   }
 }
@@ -101,40 +101,61 @@ struct Sums {
   WideMatrix H = WideMatrix::Zero();
   WideVector g = WideVector::Zero();
   double weights = 0.0, squares = 0.0, tt = 0.0, ww = 0.0, tw = 0.0, lagged = 0.0, plain = 0.0;
-  int samples = 0, pairs = 0;
+  int samples = 0;
 };
 
-struct LineMeans {
-  float t = 0, w = 0;
-};
-
-LineMeans means_of(const Line& line) {
-  LineMeans means;
-  for (std::size_t k = 0; k < static_cast<std::size_t>(line.count); ++k) {
-    means.t += line.t[k];
-    means.w += line.w[k];
+/// Takes mean and slope out of the grey values of a line.
+void straighten(const Line& line, std::array<float, kRows>& values) {
+  const auto count = static_cast<std::size_t>(line.count);
+  const float middle = 0.5F * static_cast<float>(count - 1);
+  float mean = 0, slope = 0, kk = 0;
+  for (std::size_t k = 0; k < count; ++k) {
+    const float place = static_cast<float>(k) - middle;
+    mean += values[k];
+    slope += place * values[k];
+    kk += place * place;
   }
-  means.t /= static_cast<float>(line.count);
-  means.w /= static_cast<float>(line.count);
-  return means;
+  mean /= static_cast<float>(count);
+  slope /= kk;
+  for (std::size_t k = 0; k < count; ++k) {
+    values[k] -= mean + slope * (static_cast<float>(k) - middle);
+  }
 }
 
-/// Adds a line, its bias eliminated: sums about the weighted means.
-void add_line(const Line& line, double gain, double scale, Sums& sums) {
-  const LineMeans means = means_of(line);
+/// Weighted sums along a line, and what eliminates its bias and its slope.
+struct LineSums {
   WideMatrix H = WideMatrix::Zero();
-  WideVector g = WideVector::Zero(), J_sum = WideVector::Zero();
-  double weights = 0.0, r_sum = 0.0, squares = 0.0, last = 0.0;
-  for (std::size_t k = 0; k < static_cast<std::size_t>(line.count); ++k) {
-    const double t = line.t[k] - means.t, w = line.w[k] - means.w, r = w - gain * t;
-    const double weight = scale > 0.0 ? std::min(1.0, kHuber * scale / (std::abs(r) + 1e-9)) : 1.0;
-    const WideVector weighted = weight * line.J[k];
-    H.selfadjointView<Eigen::Lower>().rankUpdate(line.J[k], weight);
-    g += r * weighted;
-    J_sum += weighted;
+  WideVector g = WideVector::Zero();
+  Eigen::Matrix<double, kWide, 2> cross = Eigen::Matrix<double, kWide, 2>::Zero();
+  Eigen::Matrix2d regressors = Eigen::Matrix2d::Zero();
+  Eigen::Vector2d r = Eigen::Vector2d::Zero();
+  double weights = 0.0, squares = 0.0;
+
+  void add(const WideVector& J, double residual, double weight, double place) {
+    const Eigen::Vector2d one(weight, weight * place);
+    H.selfadjointView<Eigen::Lower>().rankUpdate(J, weight);
+    g += weight * residual * J;
+    cross += J * one.transpose();
+    regressors(0, 0) += weight;
+    regressors(1, 0) += weight * place;
+    regressors(1, 1) += weight * place * place;
+    r += residual * one;
     weights += weight;
-    r_sum += weight * r;
-    squares += weight * r * r;
+    squares += weight * residual * residual;
+  }
+};
+
+/// Adds a line, its bias and slope eliminated.
+void add_line(Line& line, double gain, double scale, Sums& sums) {
+  straighten(line, line.t);
+  straighten(line, line.w);
+  LineSums here;
+  double last = 0.0;
+  for (std::size_t k = 0; k < static_cast<std::size_t>(line.count); ++k) {
+    const double t = line.t[k], w = line.w[k], r = w - gain * t;
+    const double weight = scale > 0.0 ? std::min(1.0, kHuber * scale / (std::abs(r) + 1e-9)) : 1.0;
+    line.J[k](kUnknowns) = -t;
+    here.add(line.J[k], r, weight, static_cast<double>(k) / kRows - 0.5);
     sums.tt += t * t;
     sums.ww += w * w;
     sums.tw += t * w;
@@ -142,13 +163,14 @@ void add_line(const Line& line, double gain, double scale, Sums& sums) {
     if (k > 0) sums.lagged += r * last;
     last = r;
   }
-  sums.H += H;
-  sums.H.selfadjointView<Eigen::Lower>().rankUpdate(J_sum, -1.0 / weights);
-  sums.g += g - J_sum * (r_sum / weights);
-  sums.weights += weights;
-  sums.squares += squares - r_sum * r_sum / weights;
+  here.regressors(0, 1) = here.regressors(1, 0);
+  const Eigen::Matrix2d inverse = here.regressors.inverse();
+  const Eigen::Matrix<double, kWide, 2> eliminate = here.cross * inverse;
+  sums.H += here.H - eliminate * here.cross.transpose();
+  sums.g += here.g - eliminate * here.r;
+  sums.weights += here.weights;
+  sums.squares += here.squares - here.r.dot(inverse * here.r);
   sums.samples += line.count;
-  sums.pairs += line.count - 1;
 }
 
 /// Eliminates the gain (Schur complement) and takes the statistics.

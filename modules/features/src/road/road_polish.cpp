@@ -10,7 +10,8 @@ namespace oneac::internal {
 namespace {
 
 constexpr int kSteps = 4;           // a level; most take two or three
-constexpr double kConverged = 1e-3; // [-] of the length, of a step
+constexpr double kConverged = 0.1;  // [σ] of a step along the length
+constexpr double kSettled = 0.5;    // [σ] of the last one: good enough, σ grows by a tenth
 constexpr double kCauchy = 2.0;     // [σ] a block's deviation that halves its weight ...
 constexpr double kAgrees = 3.0;     // [σ] ... and that is another opinion
 // Residuals are correlated across lines too, and a pixel is met by more than one sample.
@@ -100,6 +101,7 @@ bool polish_level(const RoadContext& context, const RoadGrid& grid, std::size_t 
   const std::vector<float> values = template_values(context, grid, level);
   const double noise = options.noise_grey / static_cast<double>(1U << level);
   for (BlockEquations& block : fit.equations) block.variance = 0.0;
+  double size = 0.0;
   for (int i = 0; i < kSteps; ++i) {
     fit.equations = road_equations(context, grid, values, level, fit.motion, prior.tangents,
                                    fit.equations, noise, level == 0 ? 1 : 2);
@@ -110,9 +112,10 @@ bool polish_level(const RoadContext& context, const RoadGrid& grid, std::size_t 
     step = solve_step(prior, redundant, uneven, fit);
     fit.z += step;
     fit.motion = moved(prior.start, prior.tangents, fit.z);
-    if (std::abs(step(0)) < kConverged * std::max(fit.motion.length, 0.05)) return true;
+    size = std::abs(step(0)) / std::sqrt(std::max(fit.covariance(0, 0), 1e-12));
+    if (size < kConverged) return true;
   }
-  return false;
+  return size < kSettled;
 }
 
 }  // namespace

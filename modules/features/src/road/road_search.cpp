@@ -15,29 +15,41 @@ constexpr int kLeastOfLine = kRows / 2;
 constexpr int kLeastOfBlock = kPerBlock / 4;
 constexpr int kSearchStride = 2;  // half of the lines are enough to find the place
 
-/// Sums of pairs of grey values.
-struct Moments {
-  float n = 0, t = 0, w = 0, tt = 0, ww = 0, tw = 0;
+/// Sums of pairs of grey values along a line; k counts its samples.
+struct LineMoments {
+  float n = 0, k = 0, kk = 0, t = 0, w = 0, tt = 0, ww = 0, tw = 0, tk = 0, wk = 0;
 
-  void add(float grey_t, float grey_w) {
+  void add(float place, float grey_t, float grey_w) {
     n += 1.0F;
+    k += place;
+    kk += place * place;
     t += grey_t;
     w += grey_w;
     tt += grey_t * grey_t;
     ww += grey_w * grey_w;
     tw += grey_t * grey_w;
+    tk += grey_t * place;
+    wk += grey_w * place;
   }
-  /// Adds those of a line, about its own means.
-  void add_line(const Moments& line) {
+};
+
+/// Sums over the lines of a block, each about its own straight line.
+struct Moments {
+  float n = 0, tt = 0, ww = 0, tw = 0;
+
+  void add_line(const LineMoments& line) {
     if (line.n < static_cast<float>(kLeastOfLine)) return;
+    const float kk = line.kk - line.k * line.k / line.n;
+    const float tk = line.tk - line.t * line.k / line.n, wk = line.wk - line.w * line.k / line.n;
     n += line.n;
-    tt += line.tt - line.t * line.t / line.n;
-    ww += line.ww - line.w * line.w / line.n;
-    tw += line.tw - line.t * line.w / line.n;
+    tt += line.tt - line.t * line.t / line.n - tk * tk / kk;
+    ww += line.ww - line.w * line.w / line.n - wk * wk / kk;
+    tw += line.tw - line.t * line.w / line.n - tk * wk / kk;
   }
   [[nodiscard]] float rho(float noise_variance, int least) const {
     if (n < static_cast<float>(least)) return 0.0F;
-    return tw / std::sqrt((tt + n * noise_variance) * (ww + n * noise_variance));
+    return tw / std::sqrt((std::max(tt, 0.0F) + n * noise_variance) *
+                          (std::max(ww, 0.0F) + n * noise_variance));
   }
 };
 
@@ -73,16 +85,18 @@ class LineWarp {
   PinholeCamera camera_;
 };
 
-Moments moments_of_line(const RoadContext& context, const RoadGrid& grid,
-                        const std::vector<float>& values, const PyramidLevel& pixels,
-                        const LineWarp& warp, std::size_t first) {
-  Moments line;
+/// Grey values are taken about a middle one, for the sake of single precision.
+constexpr float kMiddleGrey = 100.0F;
+
+LineMoments moments_of_line(const RoadGrid& grid, const std::vector<float>& values,
+                            const PyramidLevel& pixels, const LineWarp& warp, std::size_t first) {
+  LineMoments line;
   for (std::size_t i = first; i < first + kRows; ++i) {
     float u = 0, v = 0;
     if (!grid.usable[i] || !warp(grid.rays[i], u, v)) continue;
-    line.add(values[i], grey_at(pixels, u, v));
+    line.add(static_cast<float>(i - first), values[i] - kMiddleGrey,
+             grey_at(pixels, u, v) - kMiddleGrey);
   }
-  static_cast<void>(context);
   return line;
 }
 
@@ -101,10 +115,11 @@ std::array<bool, kBlocks> textured_blocks(const RoadGrid& grid, const std::vecto
   for (std::size_t block = 0; block < kBlocks; ++block) {
     Moments sum;
     for (std::size_t column = 0; column < kColumns; ++column) {
-      Moments line;
+      LineMoments line;
       const std::size_t first = block * kPerBlock + column * kRows;
       for (std::size_t i = first; i < first + kRows; ++i) {
-        if (grid.usable[i]) line.add(values[i], values[i]);
+        const float grey = values[i] - kMiddleGrey;
+        if (grid.usable[i]) line.add(static_cast<float>(i - first), grey, grey);
       }
       sum.add_line(line);
     }
@@ -125,7 +140,7 @@ RoadScore score_length(const RoadContext& context, const RoadGrid& grid,
     Moments sum;
     for (int column = 0; column < kColumns; column += stride) {
       const std::size_t first = block * kPerBlock + static_cast<std::size_t>(column * kRows);
-      sum.add_line(moments_of_line(context, grid, values, pixels, warp, first));
+      sum.add_line(moments_of_line(grid, values, pixels, warp, first));
     }
     const float rho = sum.rho(noise, kLeastOfBlock / stride);
     score.rho[block] = rho;
