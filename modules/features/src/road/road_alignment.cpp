@@ -1,0 +1,313 @@
+#include "oneac/features/road_alignment.h"
+
+#include "../image_pyramid.h"
+#include "oneac/base/require.h"
+#include "oneac/geometry/tangent_basis.h"
+#include "road_polish.h"
+#include "road_search.h"
+
+#include <Eigen/Cholesky>
+#include <Eigen/Geometry>
+#include <Eigen/LU>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace oneac {
+namespace {
+
+using namespace internal;
+
+constexpr int kLevels = 3;            // full size, half, quarter
+constexpr double kSearchStep = 0.8;   // [px of the level] of the nearest blocks, between lengths
+constexpr std::size_t kMostPeaks = 4; // of the search that are polished and compared
+// A peak of the search with less of the best one's evidence will not overtake it.
+constexpr double kPromising = 0.4;
+constexpr double kLeastUsable = 0.25;  // [-] of the strip
+constexpr int kLeastTextured = 3;      // blocks
+constexpr double kUnknownSigma = 0.2;  // [rad] of a motion about which nothing is said
+constexpr double kSamePlace = 1.5;     // [search steps] nearer peaks are one
+
+using Matrix5d = Eigen::Matrix<double, 5, 5>;
+using Matrix65d = Eigen::Matrix<double, 6, 5>;
+
+/// The two views by their part: template and image.
+struct Problem {
+  RoadContext context;
+  RoadPrior prior;
+  Eigen::Matrix3d R_level_a;
+  bool forward = true;  ///< the template is the second view, which sees road of the first nearer
+};
+
+/// Covariance of (w, direction in its tangent plane B) of T_2_1, with floors.
+Matrix5d motion_covariance(const RoadStep& step, const Eigen::Matrix<double, 3, 2>& B,
+                           const RoadAlignmentOptions& options) {
+  Matrix65d Q = Matrix65d::Zero();
+  Q.topLeftCorner<3, 3>().setIdentity();
+  Q.bottomRightCorner<3, 2>() = B;
+  Matrix5d information = Q.transpose() * step.information * Q;
+  information += Matrix5d::Identity() / (kUnknownSigma * kUnknownSigma);
+  Matrix5d covariance = information.ldlt().solve(Matrix5d::Identity());
+  const double turn = options.min_rotation_sigma, travel = options.min_direction_sigma;
+  covariance.diagonal().head<3>().array() += turn * turn;
+  covariance.diagonal().tail<2>().array() += travel * travel;
+  return covariance;
+}
+
+/// The same of RoadMotion's rotation and direction.
+Matrix5d in_view_b(const Matrix5d& covariance, const Eigen::Matrix3d& R,
+                   const Eigen::Vector3d& direction, const Eigen::Matrix<double, 3, 2>& B,
+                   bool forward) {
+  Matrix5d map = Matrix5d::Identity();
+  if (forward) {
+    map.topLeftCorner<3, 3>() = R.transpose();
+  } else {
+    map = -map;
+    map.bottomLeftCorner<2, 3>() = -B.transpose() * cross_matrix(direction);
+  }
+  return map * covariance * map.transpose();
+}
+
+RoadPrior make_prior(const RoadStep& step, bool forward, const Eigen::Vector3d& direction,
+                     const RoadAlignmentOptions& options) {
+  const Eigen::Matrix3d& R = step.T_2_1.R;
+  const Eigen::Matrix<double, 3, 2> B = tangent_basis(direction);
+  const Eigen::Matrix3d R_b_1 = forward ? Eigen::Matrix3d::Identity() : R;
+  const Eigen::Matrix3d R_b_level = R_b_1 * step.R_level_cam.transpose();
+  RoadPrior prior;
+  prior.start.R_b_a = forward ? Eigen::Matrix3d(R.transpose()) : R;
+  prior.start.s = forward ? Eigen::Vector3d(R.transpose() * direction) : -direction;
+  prior.start.n = R_b_level.col(1);
+  prior.tangents.normal << R_b_level.col(2), R_b_level.col(0);
+  prior.tangents.travel = forward ? Eigen::Matrix<double, 3, 2>(R.transpose() * B) : B;
+  prior.heave = options.heave;
+  prior.information(1, 1) = 1.0 / (step.pitch_sigma * step.pitch_sigma);
+  prior.information(2, 2) = 1.0 / (step.roll_sigma * step.roll_sigma);
+  const Matrix5d covariance =
+      in_view_b(motion_covariance(step, B, options), R, direction, B, forward);
+  prior.information.bottomRightCorner<5, 5>() = covariance.ldlt().solve(Matrix5d::Identity());
+  return prior;
+}
+
+Problem make_problem(const RoadImage& first, const RoadImage& second, const PinholeCamera& camera,
+                     const RoadStep& step, const ImageView& mask,
+                     const RoadAlignmentOptions& options) {
+  const Eigen::Vector3d direction = step.T_2_1.t.normalized();
+  const Eigen::Vector3d goes = step.R_level_cam * (step.T_2_1.R.transpose() * -direction);
+  Problem problem;
+  problem.forward = goes.z() >= 0.0;
+  const RoadImage &a = problem.forward ? second : first, &b = problem.forward ? first : second;
+  problem.context = {&a.pyramid(), &b.pyramid(), camera, mask};
+  problem.prior = make_prior(step, problem.forward, direction, options);
+  const Eigen::Matrix3d R_level_b =
+      problem.forward ? step.R_level_cam : step.R_level_cam * step.T_2_1.R.transpose();
+  problem.R_level_a = R_level_b * problem.prior.start.R_b_a;
+  return problem;
+}
+
+/// A fit and what it explains at full size.
+struct Candidate {
+  RoadFit fit;
+  RoadScore score;
+};
+
+std::vector<Candidate> candidates_at(const Problem& problem, const RoadGrid& grid,
+                                     std::size_t coarsest, const std::vector<RoadScore>& peaks,
+                                     double step, const RoadAlignmentOptions& options) {
+  std::vector<Candidate> candidates;
+  const std::vector<float> values = template_values(problem.context, grid, 0);
+  for (const RoadScore& peak : peaks) {
+    if (peak.evidence < kPromising * peaks.front().evidence) break;
+    Candidate candidate;
+    candidate.fit = polish(problem.context, grid, coarsest, problem.prior, peak.length, 4.0 * step,
+                           options);
+    candidate.score = score_length(problem.context, grid, values, 0, candidate.fit.motion,
+                                   options.noise_grey, 1);
+    candidates.push_back(std::move(candidate));
+  }
+  std::stable_sort(candidates.begin(), candidates.end(), [](const auto& a, const auto& b) {
+    return a.score.evidence > b.score.evidence;
+  });
+  return candidates;
+}
+
+/// The pose of the two views as fitted, t in camera heights.
+RelativePose fitted_pose(const RoadMotion& motion, bool forward) {
+  if (forward) return {motion.R_b_a.transpose(), motion.length * (motion.R_b_a.transpose() * motion.s)};
+  return {motion.R_b_a, -motion.length * motion.s};
+}
+
+void take_fit(const Problem& problem, const RoadFit& fit, const RoadAlignmentOptions& options,
+              RoadAlignment& result) {
+  result.length = fit.motion.length;
+  const double floor = options.height_sigma * fit.motion.length;
+  result.sigma = std::sqrt(std::max(fit.covariance(0, 0), 0.0) * fit.scatter + floor * floor);
+  result.relative_sigma = result.length > 0.0 ? result.sigma / result.length : 0.0;
+  result.T_2_1 = fitted_pose(fit.motion, problem.forward);
+  result.normal = problem.forward ? fit.motion.n
+                                  : Eigen::Vector3d(fit.motion.R_b_a.transpose() * fit.motion.n);
+}
+
+/// Statistics of a fit, whatever comes of it.
+void describe_fit(const RoadFit& fit, RoadAlignment& result) {
+  double rho = 0.0, gain = 0.0, weights = 0.0;
+  for (std::size_t i = 0; i < kBlocks; ++i) {
+    rho += fit.weight[i] * fit.equations[i].rho;
+    gain += fit.weight[i] * fit.equations[i].gain;
+    weights += fit.weight[i];
+  }
+  result.blocks = fit.blocks;
+  result.correlation = weights > 0.0 ? rho / weights : 0.0;
+  result.gain = weights > 0.0 ? gain / weights : 1.0;
+}
+
+RoadStatus judge(const std::vector<Candidate>& candidates, const LengthRange& range,
+                 const RoadAlignmentOptions& options, RoadAlignment& result) {
+  const RoadFit& best = candidates.front().fit;
+  describe_fit(best, result);
+  for (const Candidate& other : candidates) {
+    const double apart = std::abs(other.fit.motion.length - best.motion.length);
+    if (apart < kSamePlace * range.step) continue;
+    result.rival = other.score.evidence / candidates.front().score.evidence;
+    result.rival_length = other.fit.motion.length;
+    break;
+  }
+  if (best.blocks < options.min_blocks && best.agreeing > options.min_agreeing) {
+    return RoadStatus::kNoCorrelation;
+  }
+  if (result.rival > options.max_rival) return RoadStatus::kAmbiguous;
+  const double length = best.motion.length;
+  if (length < range.low - range.step || length > range.high + range.step) {
+    return RoadStatus::kOutOfRange;
+  }
+  if (best.blocks < options.min_blocks || best.agreeing < options.min_agreeing) {
+    return RoadStatus::kInconsistent;
+  }
+  return best.converged ? RoadStatus::kMeasured : RoadStatus::kNoCorrelation;
+}
+
+LengthRange range_of(const RoadStep& step, const RoadGrid& grid, const PinholeCamera& camera,
+                     std::size_t level, const RoadAlignmentOptions& options) {
+  const double reach = options.search_sigmas * step.length_sigma;
+  LengthRange range;
+  range.low = std::clamp(step.length - reach, step.min_length, step.max_length);
+  range.high = std::clamp(step.length + reach, step.min_length, step.max_length);
+  const double px_per_height = camera.fy / (grid.distance[0] * grid.distance[0]);
+  range.step = kSearchStep * static_cast<double>(1U << level) / px_per_height;
+  // Room for a maximum inside.
+  range.low = std::max(range.low - range.step, 0.0);
+  range.high += range.step;
+  return range;
+}
+
+void require_size(const ImageView& mask, const PinholeCamera& camera, const RoadImage& image) {
+  const auto& pyramid = image.pyramid();
+  require(pyramid.width() == camera.width && pyramid.height() == camera.height, "align_road: image",
+          pyramid.width(), "of the camera's size");
+  require(mask.empty() || (mask.width == camera.width && mask.height == camera.height),
+          "align_road: mask", mask.width, "of the camera's size");
+}
+
+RoadAlignment align(const Problem& problem, const RoadStep& step,
+                    const RoadAlignmentOptions& options, RoadAlignment result) {
+  const RoadGrid grid = make_road_grid(problem.context, problem.R_level_a, options);
+  if (grid.usable_share < kLeastUsable) return result;
+  const std::size_t coarsest =
+      std::min(problem.context.image->levels.size(), std::size_t{kLevels}) - 1;
+  const double noise = options.noise_grey / static_cast<double>(1U << coarsest);
+  const auto textured = textured_blocks(grid, template_values(problem.context, grid, 0), options.noise_grey);
+  result.textured = static_cast<int>(std::count(textured.begin(), textured.end(), true));
+  result.status = RoadStatus::kNoTexture;
+  if (result.textured < kLeastTextured) return result;
+  const LengthRange range = range_of(step, grid, problem.context.camera, coarsest, options);
+  const auto peaks = search_lengths(problem.context, grid, coarsest, problem.prior.start, range,
+                                    noise, kMostPeaks);
+  result.status = RoadStatus::kNoCorrelation;
+  if (peaks.empty()) return result;
+  const auto candidates =
+      candidates_at(problem, grid, coarsest, peaks, range.step, options);
+  result.status = judge(candidates, range, options, result);
+  if (result.status == RoadStatus::kMeasured) take_fit(problem, candidates.front().fit, options, result);
+  return result;
+}
+
+}  // namespace
+
+RoadImage::RoadImage(const ImageView& image) {
+  if (image.empty()) return;
+  pyramid_ = std::make_shared<const ImagePyramid>(build_pyramid(image, kLevels));
+}
+
+RoadImage::RoadImage(std::shared_ptr<const ImagePyramid> pyramid) : pyramid_(std::move(pyramid)) {}
+
+void RoadAlignmentOptions::validate() const {
+  const auto positive = [](double value, const char* field) {
+    require(value > 0.0, field, value, "positive");
+  };
+  positive(half_width, "road.half_width");
+  positive(nearest, "road.nearest");
+  require(farthest > nearest, "road.farthest", farthest, "more than nearest");
+  positive(search_sigmas, "road.search_sigmas");
+  require(min_correlation > 0.0 && min_correlation < 1.0, "road.min_correlation", min_correlation,
+          "between 0 and 1");
+  require(max_rival > 0.0 && max_rival <= 1.0, "road.max_rival", max_rival, "from 0 to 1");
+  require(min_blocks >= 1 && min_blocks <= kBlocks, "road.min_blocks", min_blocks, "1 … 15");
+  require(min_agreeing >= 0.0 && min_agreeing <= 1.0, "road.min_agreeing", min_agreeing, "0 … 1");
+  positive(noise_grey, "road.noise_grey");
+  positive(unevenness, "road.unevenness");
+  positive(heave, "road.heave");
+  require(height_sigma >= 0.0, "road.height_sigma", height_sigma, "not negative");
+  positive(min_rotation_sigma, "road.min_rotation_sigma");
+  positive(min_direction_sigma, "road.min_direction_sigma");
+}
+
+void RoadStep::validate() const {
+  require(T_2_1.is_finite() && T_2_1.t.norm() > 0.0, "step.T_2_1.t", T_2_1.t.norm(),
+          "finite and not zero");
+  require(R_level_cam.allFinite(), "step.R_level_cam", R_level_cam.sum(), "finite");
+  require(information.allFinite(), "step.information", information.sum(), "finite");
+  require(pitch_sigma > 0.0, "step.pitch_sigma", pitch_sigma, "positive");
+  require(roll_sigma > 0.0, "step.roll_sigma", roll_sigma, "positive");
+  require(std::isfinite(length), "step.length", length, "finite");
+  require(length_sigma > 0.0, "step.length_sigma", length_sigma, "positive");
+  require(min_length >= 0.0, "step.min_length", min_length, "not negative");
+  require(max_length >= min_length && max_length < 100.0, "step.max_length", max_length,
+          "min_length … 100");
+}
+
+Eigen::Matrix<double, 6, 6> motion_information(double rotation_sigma, double direction_sigma) {
+  Eigen::Matrix<double, 6, 6> information = Eigen::Matrix<double, 6, 6>::Zero();
+  information.diagonal().head<3>().setConstant(1.0 / (rotation_sigma * rotation_sigma));
+  information.diagonal().tail<3>().setConstant(1.0 / (direction_sigma * direction_sigma));
+  return information;
+}
+
+const char* to_string(RoadStatus status) {
+  switch (status) {
+    case RoadStatus::kMeasured: return "measured";
+    case RoadStatus::kNoRoad: return "no_road";
+    case RoadStatus::kNoTexture: return "no_texture";
+    case RoadStatus::kNoCorrelation: return "no_correlation";
+    case RoadStatus::kAmbiguous: return "ambiguous";
+    case RoadStatus::kOutOfRange: return "out_of_range";
+    case RoadStatus::kInconsistent: return "inconsistent";
+  }
+  return "unknown";
+}
+
+RoadAlignment align_road(const RoadImage& first, const RoadImage& second,
+                         const PinholeCamera& camera, const RoadStep& step, const ImageView& mask,
+                         const RoadAlignmentOptions& options) {
+  options.validate();
+  step.validate();
+  RoadAlignment result;
+  result.T_2_1 = {step.T_2_1.R, step.T_2_1.t.normalized()};
+  if (first.empty() || second.empty()) return result;
+  require_size(mask, camera, first);
+  require_size(mask, camera, second);
+  const Problem problem = make_problem(first, second, camera, step, mask, options);
+  return align(problem, step, options, result);
+}
+
+}  // namespace oneac

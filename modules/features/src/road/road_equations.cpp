@@ -1,0 +1,228 @@
+#include "road_equations.h"
+
+#include "oneac/geometry/relative_pose.h"
+
+#include <Eigen/Geometry>
+#include <Eigen/LU>
+
+#include <algorithm>
+#include <cmath>
+
+namespace oneac::internal {
+namespace {
+
+constexpr double kHuber = 1.5;  // [σ] of a residual: a stain more or less, not a car
+constexpr int kLeastOfLine = kRows / 2;
+constexpr int kLeastOfBlock = kPerBlock / 4;
+// Residual's derivatives by the unknowns, then by the gain.
+constexpr int kWide = kUnknowns + 1;
+using WideVector = Eigen::Matrix<double, kWide, 1>;
+using WideMatrix = Eigen::Matrix<double, kWide, kWide>;
+
+/// One line along the road: what is seen at its samples, and the derivatives.
+struct Line {
+  int count = 0;
+  std::array<float, kRows> t{}, w{};  // grey values of template and image
+  std::array<WideVector, kRows> J;
+};
+
+/// Derivatives of a ray's grey value in the image.
+class Derivative {
+ public:
+  Derivative(const RoadContext& context, const RoadMotion& motion, const RoadTangents& tangents,
+             std::size_t level)
+      : motion_(motion),
+        tangents_(tangents),
+        camera_(context.camera),
+        mask_(context.mask),
+        pixels_(context.image->levels[level]),
+        scale_(1.0 / static_cast<double>(1U << level)),
+        c_(1.0 + motion.length * motion.n.dot(motion.s)) {}
+
+  bool operator()(const Eigen::Vector3d& ray, float& grey, WideVector& J) const {
+    const Eigen::Vector3d y = motion_.R_b_a * ray;
+    const double depth = 1.0 / motion_.n.dot(y);
+    const Eigen::Vector3d X = depth * c_ * y - motion_.length * motion_.s;
+    if (!(depth > 0.0) || !(X.z() > 1e-3)) return false;
+    const Eigen::Vector2d u = camera_.project({X.x() / X.z(), X.y() / X.z()});
+    const Eigen::Vector2d there = scale_ * u;
+    if (!inside_level(pixels_, there.x() - 1.0, there.y() - 1.0) ||
+        !inside_level(pixels_, there.x() + 1.0, there.y() + 1.0) ||
+        !unmasked(mask_, u.x(), u.y())) {
+      return false;
+    }
+    const GreySample s =
+        sample_at(pixels_, static_cast<float>(there.x()), static_cast<float>(there.y()));
+    grey = s.grey;
+    fill(s, y, depth, X, J);
+    return true;
+  }
+
+ private:
+  /// docs/decisions/road-alignment.md, "Derivatives".
+  void fill(const GreySample& s, const Eigen::Vector3d& y, double depth, const Eigen::Vector3d& X,
+            WideVector& J) const {
+    const double inverse = scale_ / X.z();
+    const double gx = s.du * camera_.fx * inverse, gy = s.dv * camera_.fy * inverse;
+    const Eigen::Vector3d g(gx, gy, -(gx * X.x() + gy * X.y()) / X.z());
+    const double a = g.dot(y) * depth;
+    const Eigen::Vector3d h = a * motion_.n - g;
+    const Eigen::Vector3d by_normal = a * (motion_.length * motion_.s - c_ * depth * y);
+    J(0) = h.dot(motion_.s);
+    J(1) = by_normal.dot(tangents_.normal.col(0));
+    J(2) = by_normal.dot(tangents_.normal.col(1));
+    J.segment<3>(3) = X.cross(h);
+    J(6) = motion_.length * h.dot(tangents_.travel.col(0));
+    J(7) = motion_.length * h.dot(tangents_.travel.col(1));
+  }
+
+  const RoadMotion& motion_;
+  const RoadTangents& tangents_;
+  PinholeCamera camera_;
+  ImageView mask_;
+  const PyramidLevel& pixels_;
+  double scale_;
+  double c_;
+};
+
+void read_line(const RoadGrid& grid, const std::vector<float>& values, const Derivative& derivative,
+               std::size_t first, Line& line) {
+  line.count = 0;
+  for (std::size_t i = first; i < first + kRows; ++i) {
+    const auto k = static_cast<std::size_t>(line.count);
+    if (!grid.usable[i] || !derivative(grid.rays[i], line.w[k], line.J[k])) continue;
+    line.t[k] = values[i];
+    ++line.count;
+  }
+}
+
+/// Sums over the lines of a block.
+struct Sums {
+  WideMatrix H = WideMatrix::Zero();
+  WideVector g = WideVector::Zero();
+  double weights = 0.0, squares = 0.0, tt = 0.0, ww = 0.0, tw = 0.0, lagged = 0.0, plain = 0.0;
+  int samples = 0;
+};
+
+/// Takes mean and slope out of the grey values of a line.
+void straighten(const Line& line, std::array<float, kRows>& values) {
+  const auto count = static_cast<std::size_t>(line.count);
+  const float middle = 0.5F * static_cast<float>(count - 1);
+  float mean = 0, slope = 0, kk = 0;
+  for (std::size_t k = 0; k < count; ++k) {
+    const float place = static_cast<float>(k) - middle;
+    mean += values[k];
+    slope += place * values[k];
+    kk += place * place;
+  }
+  mean /= static_cast<float>(count);
+  slope /= kk;
+  for (std::size_t k = 0; k < count; ++k) {
+    values[k] -= mean + slope * (static_cast<float>(k) - middle);
+  }
+}
+
+/// Weighted sums along a line, and what eliminates its bias and its slope.
+struct LineSums {
+  WideMatrix H = WideMatrix::Zero();
+  WideVector g = WideVector::Zero();
+  Eigen::Matrix<double, kWide, 2> cross = Eigen::Matrix<double, kWide, 2>::Zero();
+  Eigen::Matrix2d regressors = Eigen::Matrix2d::Zero();
+  Eigen::Vector2d r = Eigen::Vector2d::Zero();
+  double weights = 0.0, squares = 0.0;
+
+  void add(const WideVector& J, double residual, double weight, double place) {
+    const Eigen::Vector2d one(weight, weight * place);
+    H.selfadjointView<Eigen::Lower>().rankUpdate(J, weight);
+    g += weight * residual * J;
+    cross += J * one.transpose();
+    regressors(0, 0) += weight;
+    regressors(1, 0) += weight * place;
+    regressors(1, 1) += weight * place * place;
+    r += residual * one;
+    weights += weight;
+    squares += weight * residual * residual;
+  }
+};
+
+/// Adds a line, its bias and slope eliminated.
+void add_line(Line& line, double gain, double scale, Sums& sums) {
+  straighten(line, line.t);
+  straighten(line, line.w);
+  LineSums here;
+  double last = 0.0;
+  for (std::size_t k = 0; k < static_cast<std::size_t>(line.count); ++k) {
+    const double t = line.t[k], w = line.w[k], r = w - gain * t;
+    const double weight = scale > 0.0 ? std::min(1.0, kHuber * scale / (std::abs(r) + 1e-9)) : 1.0;
+    line.J[k](kUnknowns) = -t;
+    here.add(line.J[k], r, weight, static_cast<double>(k) / kRows - 0.5);
+    sums.tt += t * t;
+    sums.ww += w * w;
+    sums.tw += t * w;
+    sums.plain += r * r;
+    if (k > 0) sums.lagged += r * last;
+    last = r;
+  }
+  here.regressors(0, 1) = here.regressors(1, 0);
+  const Eigen::Matrix2d inverse = here.regressors.inverse();
+  const Eigen::Matrix<double, kWide, 2> eliminate = here.cross * inverse;
+  sums.H += here.H - eliminate * here.cross.transpose();
+  sums.g += here.g - eliminate * here.r;
+  sums.weights += here.weights;
+  sums.squares += here.squares - here.r.dot(inverse * here.r);
+  sums.samples += line.count;
+}
+
+/// Eliminates the gain (Schur complement) and takes the statistics.
+BlockEquations finish(const Sums& sums, double noise_grey) {
+  BlockEquations block;
+  block.samples = sums.samples;
+  if (sums.samples < kLeastOfBlock || !(sums.weights > 0.0)) return block;
+  const WideMatrix H = sums.H.selfadjointView<Eigen::Lower>();
+  const double noise = noise_grey * noise_grey * sums.samples;
+  const double hh = H(kUnknowns, kUnknowns) + noise;
+  const RoadVector cross = H.block<kUnknowns, 1>(0, kUnknowns);
+  block.H = H.topLeftCorner<kUnknowns, kUnknowns>() - cross * cross.transpose() / hh;
+  block.g = sums.g.head<kUnknowns>() - cross * (sums.g(kUnknowns) / hh);
+  block.weights = sums.weights;
+  block.variance = std::max(sums.squares, 0.0) / sums.weights + noise_grey * noise_grey;
+  block.gain = std::clamp((sums.tw + noise) / (sums.tt + noise), 0.2, 5.0);
+  block.rho = sums.tw / std::sqrt((sums.tt + noise) * (sums.ww + noise));
+  block.lag = sums.plain > 0.0 ? sums.lagged / sums.plain : 0.0;
+  return block;
+}
+
+}  // namespace
+
+RoadMotion moved(const RoadMotion& start, const RoadTangents& tangents, const RoadVector& z) {
+  RoadMotion motion;
+  const Eigen::Matrix3d turn = rotation_from_vector(-z.segment<3>(3));
+  motion.length = start.length + z(0);
+  motion.n = (start.n + tangents.normal * z.segment<2>(1)).normalized();
+  motion.R_b_a = turn * start.R_b_a;
+  motion.s = (turn * (start.s + tangents.travel * z.segment<2>(6))).normalized();
+  return motion;
+}
+
+RoadEquations road_equations(const RoadContext& context, const RoadGrid& grid,
+                             const std::vector<float>& values, std::size_t level,
+                             const RoadMotion& motion, const RoadTangents& tangents,
+                             const RoadEquations& before, double noise_grey, int stride) {
+  const Derivative derivative(context, motion, tangents, level);
+  RoadEquations equations;
+  Line line;
+  for (std::size_t block = 0; block < kBlocks; ++block) {
+    Sums sums;
+    const double gain = before[block].gain;
+    const double scale = std::sqrt(before[block].variance);
+    for (int column = 0; column < kColumns; column += stride) {
+      const auto first = block * kPerBlock + static_cast<std::size_t>(column * kRows);
+      read_line(grid, values, derivative, first, line);
+      if (line.count >= kLeastOfLine) add_line(line, gain, scale, sums);
+    }
+    equations[block] = finish(sums, noise_grey);
+  }
+  return equations;
+}
+
+}  // namespace oneac::internal
