@@ -1,10 +1,10 @@
 #include "run_outputs.h"
 
-#include "fixed_text.h"
-
 #include "oneac/base/atomic_file.h"
 #include "oneac/base/error.h"
+#include "oneac/base/number_text.h"
 #include "oneac/frontend/map_formats.h"
+#include "oneac/report/table.h"
 
 #include <algorithm>
 #include <stdexcept>
@@ -21,13 +21,14 @@ std::string format_tilts(const std::vector<FrameResult>& frames) {
       "index,time,pitch_up_deg,pitch_sigma_deg,roll_right_deg,roll_sigma_deg,"
       "suspension_pitch_deg,suspension_sigma_deg\n";
   for (const FrameResult& frame : frames) {
-    text += std::to_string(frame.index) + ',' + fixed_text(frame.time_s, kTimeDecimals);
+    std::vector<std::string> cells = {std::to_string(frame.index),
+                                      fixed_text(frame.time_s, kTimeDecimals)};
     const TiltBelief& tilt = frame.tilt;
     for (const double angle : {tilt.tilt.pitch_up, tilt.pitch_sigma, tilt.tilt.roll_right,
                                tilt.roll_sigma, frame.suspension.angle, frame.suspension.sigma}) {
-      text += ',' + fixed_text(angle / kDegree, kAngleDecimals);
+      cells.push_back(fixed_text(angle / kDegree, kAngleDecimals));
     }
-    text += '\n';
+    text += csv_line(cells);
   }
   return text;
 }

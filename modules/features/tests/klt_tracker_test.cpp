@@ -2,7 +2,6 @@
 
 #include "oneac/base/error.h"
 #include "oneac/features/ac_tracker.h"
-#include "oneac/features/draw_tracks.h"
 #include "oneac/features/feature_options.h"
 #include "oneac/test_support/temporary_folder.h"
 
@@ -255,17 +254,6 @@ TEST(KltTracker, RefusesImagesOfAnotherSize) {
   const auto tracker = make_tracker(klt());
   feed(*tracker, GreyImage(200, 100, 90));
   EXPECT_THROW(feed(*tracker, GreyImage(100, 100, 90)), std::invalid_argument);
-}
-
-TEST(DrawTracks, WritesAPicture) {
-  const TemporaryFolder folder;
-  const GreyImage image = render(Texture(12), shifted(0, 0));
-  TrackedPair pair;
-  pair.acs.push_back({{100, 100}, {110, 104}, Eigen::Matrix2d::Identity()});
-  pair.tracks.push_back(0);
-  draw_tracks(image.view(), pair, folder.path() / "tracks.png");
-  EXPECT_GT(std::filesystem::file_size(folder.path() / "tracks.png"), 1000U);
-  EXPECT_THROW(draw_tracks(image.view(), pair, folder.path() / "none" / "tracks.png"), OutputError);
 }
 
 }  // namespace
