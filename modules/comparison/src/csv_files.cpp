@@ -14,12 +14,6 @@ using Cells = std::vector<std::string>;
 
 constexpr double kDegree = 3.14159265358979323846 / 180.0;
 
-std::string name_of_log(const ComparisonData& data, std::size_t log) {
-  const auto found = std::find_if(data.logs.begin(), data.logs.end(),
-                                  [&](const LogRecord& record) { return record.log == log; });
-  return found == data.logs.end() ? std::to_string(log) : found->name;
-}
-
 std::string degrees(const Number& angle) {
   return angle ? exact_text(*angle / kDegree) : "";
 }
@@ -48,6 +42,12 @@ std::string cell(const Number& value, int digits) {
 }
 
 }  // namespace
+
+std::string name_of_log(const ComparisonData& data, std::size_t log) {
+  const auto found = std::find_if(data.logs.begin(), data.logs.end(),
+                                  [&](const LogRecord& record) { return record.log == log; });
+  return found == data.logs.end() ? std::to_string(log) : found->name;
+}
 
 std::string pairs_csv(const ComparisonData& data) {
   std::string text =

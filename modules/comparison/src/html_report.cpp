@@ -16,13 +16,6 @@ constexpr double kInfinite = std::numeric_limits<double>::infinity();
 constexpr std::size_t kMostPairs = 400;
 constexpr double kPixel = 0.005;  // of a share: a pixel of the plot
 
-std::string name_of_log(const ComparisonData& data, std::size_t log) {
-  for (const LogRecord& record : data.logs) {
-    if (record.log == log) return record.name;
-  }
-  return "";
-}
-
 /// One quantity of every estimate, method by method.
 template <class Value>
 Plot plot_of(const ComparisonData& data, const char* title, const char* x_label, Value&& value) {

@@ -12,6 +12,8 @@ namespace oneac {
 // Only timings.csv, the columns ms_… of summary.csv and the rows "Time" of the tables depend on the
 // clock.
 
+/// The log's name, or its number where it is not known.
+[[nodiscard]] std::string name_of_log(const ComparisonData& data, std::size_t log);
 /// One row per pair × method × trial.
 [[nodiscard]] std::string pairs_csv(const ComparisonData& data);
 /// The same keys with the CPU time [ms].
