@@ -7,6 +7,7 @@
 #include "oneac/report/table.h"
 
 #include <algorithm>
+#include <cmath>
 #include <stdexcept>
 
 namespace oneac::app {
@@ -15,6 +16,12 @@ namespace {
 
 constexpr double kDegree = 3.14159265358979323846 / 180.0;
 constexpr int kTimeDecimals = 6, kAngleDecimals = 4;
+
+/// An angle that rounds to zero keeps its sign, as this file always did.
+std::string angle_text(double angle) {
+  const std::string text = fixed_text(angle / kDegree, kAngleDecimals);
+  return std::signbit(angle) && text.front() != '-' ? "-" + text : text;
+}
 
 std::string format_tilts(const std::vector<FrameResult>& frames) {
   std::string text =
@@ -26,7 +33,7 @@ std::string format_tilts(const std::vector<FrameResult>& frames) {
     const TiltBelief& tilt = frame.tilt;
     for (const double angle : {tilt.tilt.pitch_up, tilt.pitch_sigma, tilt.tilt.roll_right,
                                tilt.roll_sigma, frame.suspension.angle, frame.suspension.sigma}) {
-      cells.push_back(fixed_text(angle / kDegree, kAngleDecimals));
+      cells.push_back(angle_text(angle));
     }
     text += csv_line(cells);
   }
