@@ -9,7 +9,6 @@
 
 #include "oneac/base/atomic_file.h"
 #include "oneac/base/error.h"
-#include "oneac/features/draw_tracks.h"
 
 #include <CLI/CLI.hpp>
 

@@ -1,9 +1,9 @@
 #include "feature_statistics.h"
 
-#include "fixed_text.h"
-
+#include "oneac/base/number_text.h"
 #include "oneac/evaluation/statistics.h"
 #include "oneac/geometry/essential.h"
+#include "oneac/report/table.h"
 
 #include <algorithm>
 #include <cmath>
@@ -33,17 +33,19 @@ std::vector<double> values_of(const FeatureStatistics& statistics, Field&& field
   return values;
 }
 
-std::string row_of(const char* name, const std::vector<double>& values, int decimals) {
-  const std::optional<Statistics> s = statistics_of(values);
-  if (!s) return "";
-  return std::string("| ") + name + " | " + fixed_text(s->median, decimals) + " | " +
-         fixed_text(s->mean, decimals) + " | " +
-         fixed_text(*std::min_element(values.begin(), values.end()), decimals) + " | " +
-         fixed_text(s->max, decimals) + " |\n";
+Table empty_table() {
+  return {"", {"per pair", "median", "mean", "least", "most"}, {}};
 }
 
-constexpr const char* kTableHead =
-    "| per pair | median | mean | least | most |\n|---|--:|--:|--:|--:|\n";
+void add_row(Table& table, const char* name, const std::vector<double>& values, int decimals) {
+  const std::optional<Statistics> s = statistics_of(values);
+  if (!s) return;
+  table.rows.push_back({{name}});
+  for (const double value :
+       {s->median, s->mean, *std::min_element(values.begin(), values.end()), s->max}) {
+    table.rows.back().push_back({fixed_text(value, decimals)});
+  }
+}
 
 }  // namespace
 
@@ -121,11 +123,11 @@ std::string format_pairs(const FeatureStatistics& statistics) {
   std::string text =
       "index1,index2,acs,followed,standing,motion_px,affine_residual,ms_decode,ms_features\n";
   for (const PairFeatures& p : statistics.pairs()) {
-    text += std::to_string(p.index1) + "," + std::to_string(p.index2) + "," +
-            std::to_string(p.acs) + "," + std::to_string(p.followed) + "," +
-            (p.standing ? "1" : "0") + "," + fixed_text(p.motion_px, 3) + "," +
-            (p.affine_residual ? fixed_text(*p.affine_residual, 5) : "") + "," +
-            fixed_text(p.decode_ms, 3) + "," + fixed_text(p.features_ms, 3) + "\n";
+    text +=
+        csv_line({std::to_string(p.index1), std::to_string(p.index2), std::to_string(p.acs),
+                  std::to_string(p.followed), p.standing ? "1" : "0", fixed_text(p.motion_px, 3),
+                  p.affine_residual ? fixed_text(*p.affine_residual, 5) : "",
+                  fixed_text(p.decode_ms, 3), fixed_text(p.features_ms, 3)});
   }
   return text;
 }
@@ -133,7 +135,7 @@ std::string format_pairs(const FeatureStatistics& statistics) {
 std::string format_track_lengths(const FeatureStatistics& statistics) {
   std::string text = "images,tracks\n";
   for (const auto& [images, tracks] : statistics.track_lengths()) {
-    text += std::to_string(images) + "," + std::to_string(tracks) + "\n";
+    text += csv_line({std::to_string(images), std::to_string(tracks)});
   }
   return text;
 }
@@ -143,9 +145,9 @@ std::string format_regions(const FeatureStatistics& statistics) {
   for (int row = 0; row < FeatureStatistics::kRows; ++row) {
     for (int column = 0; column < FeatureStatistics::kColumns; ++column) {
       const std::vector<double>& residuals = statistics.residuals(row, column);
-      text += std::to_string(row) + "," + std::to_string(column) + "," +
-              std::to_string(residuals.size()) + "," +
-              (residuals.empty() ? "" : fixed_text(median(residuals), 5)) + "\n";
+      text +=
+          csv_line({std::to_string(row), std::to_string(column), std::to_string(residuals.size()),
+                    residuals.empty() ? "" : fixed_text(median(residuals), 5)});
     }
   }
   return text;
@@ -154,12 +156,13 @@ std::string format_regions(const FeatureStatistics& statistics) {
 std::string format_summary(const FeatureStatistics& statistics, const std::string& extractor) {
   std::string text = "# Affine correspondences of a drive\n\nExtractor `" + extractor + "`, " +
                      std::to_string(statistics.pairs().size()) + " pairs of images.\n\n";
-  text += kTableHead;
-  text += row_of("correspondences", values_of(statistics, [](const auto& p) { return p.acs; }), 0);
-  text += row_of("on followed tracks",
-                 values_of(statistics, [](const auto& p) { return p.followed; }), 0);
-  text +=
-      row_of("motion [px]", values_of(statistics, [](const auto& p) { return p.motion_px; }), 1);
+  Table counts = empty_table();
+  add_row(counts, "correspondences", values_of(statistics, [](const auto& p) { return p.acs; }), 0);
+  add_row(counts, "on followed tracks",
+          values_of(statistics, [](const auto& p) { return p.followed; }), 0);
+  add_row(counts, "motion [px]", values_of(statistics, [](const auto& p) { return p.motion_px; }),
+          1);
+  text += table_md(counts);
   std::size_t tracks = 0, images = 0;
   for (const auto& [length, count] : statistics.track_lengths()) {
     tracks += count;
@@ -176,11 +179,12 @@ std::string format_summary(const FeatureStatistics& statistics, const std::strin
             " of the correspondences whose points obey the pair's pose; by region of the image in "
             "`regions.csv` and `regions.png`.\n";
   }
-  text += "\n## Time\n\n" + std::string(kTableHead);
-  text +=
-      row_of("decode [ms]", values_of(statistics, [](const auto& p) { return p.decode_ms; }), 2);
-  return text + row_of("features [ms]",
-                       values_of(statistics, [](const auto& p) { return p.features_ms; }), 2);
+  Table times = empty_table();
+  add_row(times, "decode [ms]", values_of(statistics, [](const auto& p) { return p.decode_ms; }),
+          2);
+  add_row(times, "features [ms]",
+          values_of(statistics, [](const auto& p) { return p.features_ms; }), 2);
+  return text + "\n## Time\n\n" + table_md(times);
 }
 
 }  // namespace oneac::app

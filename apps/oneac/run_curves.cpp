@@ -28,7 +28,7 @@ double yaw_of(const Eigen::Matrix3d& R) {
 /// One value per step over the time of its second image.
 template <class Value>
 PlotSeries per_step(const DriveRecord& record, const std::string& label, Value&& value) {
-  PlotSeries series{label, {}, {}, false};
+  PlotSeries series{label, {}, {}, Pen::line};
   for (std::size_t i = 1; i < record.frames.size(); ++i) {
     series.x.push_back(seconds(record, record.frames[i].time_s));
     const bool has_step = record.frames[i].step.has_value();
@@ -39,7 +39,7 @@ PlotSeries per_step(const DriveRecord& record, const std::string& label, Value&&
 
 /// One value per step between frames that both have a reference pose.
 template <class Value>
-void add_reference(const DriveRecord& record, const ReferenceTrack& track, SeriesPlot& plot,
+void add_reference(const DriveRecord& record, const ReferenceTrack& track, Plot& plot,
                    Value&& value) {
   if (track.poses.empty()) return;
   plot.series.push_back(per_step(record, "reference", [&](std::size_t i, const StepResult& step) {
@@ -53,8 +53,8 @@ bool is_during(const DriveRecord& record, double time_s) {
   return time_s >= record.frames.front().time_s && time_s <= record.frames.back().time_s;
 }
 
-SeriesPlot speed_plot(const DriveRecord& record, const ReferenceTrack& track) {
-  SeriesPlot plot{"Speed", "time [s]", record.has_scale() ? "m/s" : "units/s", {}, true};
+Plot speed_plot(const DriveRecord& record, const ReferenceTrack& track) {
+  Plot plot{"Speed", "time [s]", record.has_scale() ? "m/s" : "units/s", {}, true};
   plot.series.push_back(per_step(record, "estimate", [](std::size_t, const StepResult& step) {
     return step.length / (step.time2 - step.time1);
   }));
@@ -62,7 +62,7 @@ SeriesPlot speed_plot(const DriveRecord& record, const ReferenceTrack& track) {
   add_reference(record, track, plot, [](const Eigen::Isometry3d& a, const Eigen::Isometry3d& b) {
     return (b.translation() - a.translation()).norm();
   });
-  PlotSeries gps{"GPS", {}, {}, true};
+  PlotSeries gps{"GPS", {}, {}, Pen::dots};
   for (const GpsFix& fix : record.source.reference.gps) {
     if (!fix.speed || !is_during(record, fix.time_s)) continue;
     gps.x.push_back(seconds(record, fix.time_s));
@@ -74,7 +74,7 @@ SeriesPlot speed_plot(const DriveRecord& record, const ReferenceTrack& track) {
 
 /// Turn between fixes over the time between them, where both drive.
 PlotSeries course_rate(const DriveRecord& record) {
-  PlotSeries series{"GPS course", {}, {}, true};
+  PlotSeries series{"GPS course", {}, {}, Pen::dots};
   const GpsFix* before = nullptr;
   for (const GpsFix& fix : record.source.reference.gps) {
     const bool drives = fix.course && fix.speed && *fix.speed >= kStanding;
@@ -91,8 +91,8 @@ PlotSeries course_rate(const DriveRecord& record) {
   return series;
 }
 
-SeriesPlot yaw_rate_plot(const DriveRecord& record, const ReferenceTrack& track) {
-  SeriesPlot plot{"Yaw rate (left positive)", "time [s]", "deg/s", {}, false};
+Plot yaw_rate_plot(const DriveRecord& record, const ReferenceTrack& track) {
+  Plot plot{"Yaw rate (left positive)", "time [s]", "deg/s", {}, false};
   const std::vector<Eigen::Isometry3d> poses = record.vehicle_trajectory().poses;
   plot.series.push_back(per_step(record, "estimate", [&](std::size_t i, const StepResult& step) {
     return yaw_of(poses[i - 1].linear().transpose() * poses[i].linear()) /
@@ -109,7 +109,7 @@ SeriesPlot yaw_rate_plot(const DriveRecord& record, const ReferenceTrack& track)
 
 /// Path of the estimate over that of the reference − 1 over the last kScaleStretch metres.
 PlotSeries scale_error(const DriveRecord& record, const ReferenceTrack& track) {
-  PlotSeries series{"error over the last 20 m", {}, {}, false};
+  PlotSeries series{"error over the last 20 m", {}, {}, Pen::line};
   std::vector<double> estimated, truth;
   std::size_t begin = 0;
   const auto restart = [&] { estimated = truth = {0.0}, begin = 0; };
@@ -134,8 +134,8 @@ PlotSeries scale_error(const DriveRecord& record, const ReferenceTrack& track) {
   return series;
 }
 
-SeriesPlot scale_plot(const DriveRecord& record, const ReferenceTrack& track) {
-  SeriesPlot plot{"Scale", "time [s]", "%", {}, false};
+Plot scale_plot(const DriveRecord& record, const ReferenceTrack& track) {
+  Plot plot{"Scale", "time [s]", "%", {}, false};
   plot.series.push_back(
       per_step(record, "1σ of a metric length", [](std::size_t, const StepResult& step) {
         return step.metric && step.length_sigma > 0.0 ? 100.0 * step.length_sigma : kNone;
@@ -146,10 +146,10 @@ SeriesPlot scale_plot(const DriveRecord& record, const ReferenceTrack& track) {
   return plot;
 }
 
-SeriesPlot tilt_plot(const DriveRecord& record) {
-  SeriesPlot plot{"Tilt of the camera, as believed", "time [s]", "deg", {}, false};
+Plot tilt_plot(const DriveRecord& record) {
+  Plot plot{"Tilt of the camera, as believed", "time [s]", "deg", {}, false};
   const auto add = [&](const char* label, auto&& angle) {
-    PlotSeries series{label, {}, {}, false};
+    PlotSeries series{label, {}, {}, Pen::line};
     for (const FrameResult& frame : record.frames) {
       series.x.push_back(seconds(record, frame.time_s));
       series.y.push_back(angle(frame) / kDegree);
@@ -162,8 +162,8 @@ SeriesPlot tilt_plot(const DriveRecord& record) {
   return plot;
 }
 
-SeriesPlot counts_plot(const DriveRecord& record) {
-  SeriesPlot plot{"Affine correspondences", "time [s]", "count", {}, true};
+Plot counts_plot(const DriveRecord& record) {
+  Plot plot{"Affine correspondences", "time [s]", "count", {}, true};
   const auto add = [&](const char* label, std::size_t StepResult::*field) {
     plot.series.push_back(per_step(record, label, [=](std::size_t, const StepResult& step) {
       return static_cast<double>(step.*field);
@@ -177,16 +177,15 @@ SeriesPlot counts_plot(const DriveRecord& record) {
 }
 
 /// Errors of the pairs over the time of their second image.
-std::vector<SeriesPlot> error_plots(const DriveRecord& record, const RunEvaluation& evaluation) {
+std::vector<Plot> error_plots(const DriveRecord& record, const RunEvaluation& evaluation) {
   if (!evaluation.against_poses || evaluation.against_poses->pairs.empty()) return {};
-  SeriesPlot rotation{"Rotation error of a pair", "time [s]", "deg", {{"estimate", {}, {}}}, true};
-  SeriesPlot direction{
-      "Direction error of a pair", "time [s]", "deg", {{"estimate", {}, {}}}, true};
+  Plot rotation{"Rotation error of a pair", "time [s]", "deg", {{"estimate", {}, {}}}, true};
+  Plot direction{"Direction error of a pair", "time [s]", "deg", {{"estimate", {}, {}}}, true};
   const auto& pairs = evaluation.against_poses->pairs;
   std::size_t i = 0;
   for (const FrameResult& frame : record.frames) {  // pairs are in the order of the frames
     if (!frame.step || i == pairs.size() || pairs[i].index2 != frame.step->index2) continue;
-    for (SeriesPlot* plot : {&rotation, &direction}) {
+    for (Plot* plot : {&rotation, &direction}) {
       plot->series[0].x.push_back(seconds(record, frame.time_s));
     }
     rotation.series[0].y.push_back(pairs[i].rotation / kDegree);
@@ -198,18 +197,18 @@ std::vector<SeriesPlot> error_plots(const DriveRecord& record, const RunEvaluati
 
 }  // namespace
 
-std::vector<SeriesPlot> plots_of(const DriveRecord& record, const RunEvaluation& evaluation) {
+std::vector<Plot> plots_of(const DriveRecord& record, const RunEvaluation& evaluation) {
   if (record.frames.empty()) return {};
   const ReferenceTrack track = reference_track(record, evaluation);
-  std::vector<SeriesPlot> plots = {speed_plot(record, track), yaw_rate_plot(record, track),
-                                   scale_plot(record, track), tilt_plot(record)};
+  std::vector<Plot> plots = {speed_plot(record, track), yaw_rate_plot(record, track),
+                             scale_plot(record, track), tilt_plot(record)};
   plots.push_back(counts_plot(record));
-  for (SeriesPlot& plot : error_plots(record, evaluation)) plots.push_back(std::move(plot));
+  for (Plot& plot : error_plots(record, evaluation)) plots.push_back(std::move(plot));
   return plots;
 }
 
-SeriesPlot timing_plot_of(const DriveRecord& record) {
-  SeriesPlot plot{"CPU time of the stages", "time [s]", "ms", {}, true};
+Plot timing_plot_of(const DriveRecord& record) {
+  Plot plot{"CPU time of the stages", "time [s]", "ms", {}, true};
   if (record.frames.empty()) return plot;
   const auto add = [&](const char* label, auto&& value) {
     plot.series.push_back(per_step(record, label, value));

@@ -3,7 +3,7 @@
 #include "drive_record.h"
 #include "run_summary.h"
 
-#include "oneac/evaluation/svg_plot.h"
+#include "oneac/report/plot.h"
 
 #include <vector>
 
@@ -28,13 +28,13 @@ struct PlaneAlignment {
 
 /// The way seen from above, first heading up; reference poses and GPS positions laid over it by
 /// align_in_plane. A way without scale takes that of the reference.
-[[nodiscard]] PlanView plan_of(const DriveRecord& record, const RunEvaluation& evaluation);
+[[nodiscard]] Plot plan_of(const DriveRecord& record, const RunEvaluation& evaluation);
 
 /// Speed, yaw rate, scale, tilt, correspondences, and pair errors when there is a reference.
-[[nodiscard]] std::vector<SeriesPlot> plots_of(const DriveRecord& record,
-                                               const RunEvaluation& evaluation);
+[[nodiscard]] std::vector<Plot> plots_of(const DriveRecord& record,
+                                         const RunEvaluation& evaluation);
 
 /// CPU time of the stages: the plot that depends on the clock.
-[[nodiscard]] SeriesPlot timing_plot_of(const DriveRecord& record);
+[[nodiscard]] Plot timing_plot_of(const DriveRecord& record);
 
 }  // namespace oneac::app

@@ -1,13 +1,14 @@
 #include "run_outputs.h"
 
-#include "fixed_text.h"
-
 #include "oneac/base/atomic_file.h"
 #include "oneac/base/error.h"
+#include "oneac/base/number_text.h"
 #include "oneac/frontend/map_formats.h"
 #include "oneac/geometry/angles.h"
+#include "oneac/report/table.h"
 
 #include <algorithm>
+#include <cmath>
 #include <stdexcept>
 
 namespace oneac::app {
@@ -16,18 +17,25 @@ namespace {
 
 constexpr int kTimeDecimals = 6, kAngleDecimals = 4;
 
+/// An angle that rounds to zero keeps its sign, as this file always did.
+std::string angle_text(double angle) {
+  const std::string text = fixed_text(angle / kDegree, kAngleDecimals);
+  return std::signbit(angle) && text.front() != '-' ? "-" + text : text;
+}
+
 std::string format_tilts(const std::vector<FrameResult>& frames) {
   std::string text =
       "index,time,pitch_up_deg,pitch_sigma_deg,roll_right_deg,roll_sigma_deg,"
       "suspension_pitch_deg,suspension_sigma_deg\n";
   for (const FrameResult& frame : frames) {
-    text += std::to_string(frame.index) + ',' + fixed_text(frame.time_s, kTimeDecimals);
+    std::vector<std::string> cells = {std::to_string(frame.index),
+                                      fixed_text(frame.time_s, kTimeDecimals)};
     const TiltBelief& tilt = frame.tilt;
     for (const double angle : {tilt.tilt.pitch_up, tilt.pitch_sigma, tilt.tilt.roll_right,
                                tilt.roll_sigma, frame.suspension.angle, frame.suspension.sigma}) {
-      text += ',' + fixed_text(angle / kDegree, kAngleDecimals);
+      cells.push_back(angle_text(angle));
     }
-    text += '\n';
+    text += csv_line(cells);
   }
   return text;
 }

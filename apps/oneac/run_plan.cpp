@@ -22,29 +22,29 @@ Eigen::Vector2d from_above(const Eigen::Matrix3d& R_vehicle_cam, const Eigen::Ve
 }
 
 /// What is laid over the way: points of the reference, and the way's at the same moments.
-struct Overlay {
-  PlanPath path;
+struct Laid {
+  const char* label;
+  Pen pen;
+  Points path;
   Points estimate;
 };
 
-Overlay poses_overlay(const DriveRecord& record, const RunEvaluation& evaluation,
-                      const Points& way) {
-  Overlay overlay{{"reference", {}, false}, {}};
+Laid laid_poses(const DriveRecord& record, const RunEvaluation& evaluation, const Points& way) {
+  Laid laid{"reference", Pen::line, {}, {}};
   const ReferenceTrack track = reference_track(record, evaluation);
   const Eigen::Matrix3d R = record.mount().linear();
   std::optional<Eigen::Isometry3d> first;
   for (std::size_t i = 0; i < track.poses.size(); ++i) {
     if (!track.poses[i]) continue;
     if (!first) first = track.poses[i];
-    overlay.path.points.push_back(
-        from_above(R, (first->inverse() * *track.poses[i]).translation()));
-    overlay.estimate.push_back(way[i]);
+    laid.path.push_back(from_above(R, (first->inverse() * *track.poses[i]).translation()));
+    laid.estimate.push_back(way[i]);
   }
-  return overlay;
+  return laid;
 }
 
-Overlay gps_overlay(const DriveRecord& record, const Points& way) {
-  Overlay overlay{{"GPS", {}, true}, {}};
+Laid laid_gps(const DriveRecord& record, const Points& way) {
+  Laid laid{"GPS", Pen::dots, {}, {}};
   const auto& frames = record.frames;
   for (const GpsFix& fix : record.source.reference.gps) {
     if (!fix.position_enu) continue;
@@ -55,14 +55,23 @@ Overlay gps_overlay(const DriveRecord& record, const Points& way) {
     const auto i = static_cast<std::size_t>(after - frames.begin());
     const double share =
         (fix.time_s - frames[i - 1].time_s) / (frames[i].time_s - frames[i - 1].time_s);
-    overlay.path.points.push_back(fix.position_enu->head<2>());
-    overlay.estimate.push_back(way[i - 1] + share * (way[i] - way[i - 1]));
+    laid.path.push_back(fix.position_enu->head<2>());
+    laid.estimate.push_back(way[i - 1] + share * (way[i] - way[i - 1]));
   }
-  return overlay;
+  return laid;
 }
 
 void scale(Points& points, double factor) {
   for (Eigen::Vector2d& point : points) point *= factor;
+}
+
+PlotSeries series_of(const char* label, Pen pen, const Points& points) {
+  PlotSeries series{label, {}, {}, pen};
+  for (const Eigen::Vector2d& point : points) {
+    series.x.push_back(point.x());
+    series.y.push_back(point.y());
+  }
+  return series;
 }
 
 }  // namespace
@@ -86,36 +95,35 @@ PlaneAlignment align_in_plane(const Points& x, const Points& y, bool scaled) {
   return result;
 }
 
-PlanView plan_of(const DriveRecord& record, const RunEvaluation& evaluation) {
-  PlanView plan{"Seen from above, first heading up", "m", {}};
+Plot plan_of(const DriveRecord& record, const RunEvaluation& evaluation) {
+  Plot plan{"Seen from above, first heading up", "m", "", {}, false, Axes::plan};
   const Eigen::Matrix3d R = record.mount().linear();
-  PlanPath way{"estimate", {}, false}, keyframes{"keyframes", {}, true};
+  Points way, keyframes;
   for (const FrameResult& frame : record.frames) {
-    way.points.push_back(from_above(R, frame.T_first_cam.translation()));
+    way.push_back(from_above(R, frame.T_first_cam.translation()));
   }
   for (const Keyframe& keyframe : record.keyframes) {
-    keyframes.points.push_back(from_above(R, keyframe.T_first_cam.translation()));
+    keyframes.push_back(from_above(R, keyframe.T_first_cam.translation()));
   }
-  std::vector<Overlay> overlays = {poses_overlay(record, evaluation, way.points),
-                                   gps_overlay(record, way.points)};
-  const auto used = std::find_if(overlays.begin(), overlays.end(),
-                                 [](const Overlay& o) { return o.path.points.size() > 1; });
+  std::vector<Laid> all = {laid_poses(record, evaluation, way), laid_gps(record, way)};
+  const auto used =
+      std::find_if(all.begin(), all.end(), [](const Laid& laid) { return laid.path.size() > 1; });
   double factor = 1.0;
-  if (!record.has_scale() && used == overlays.end()) plan.unit = "units";
-  if (!record.has_scale() && used != overlays.end()) {
-    factor = align_in_plane(used->estimate, used->path.points, true).scale;
+  if (!record.has_scale() && used == all.end()) plan.x_label = "units";
+  if (!record.has_scale() && used != all.end()) {
+    factor = align_in_plane(used->estimate, used->path, true).scale;
   }
-  scale(way.points, factor);
-  scale(keyframes.points, factor);
-  plan.paths = {way};
-  for (Overlay& overlay : overlays) {
-    if (overlay.path.points.empty()) continue;
-    scale(overlay.estimate, factor);
-    const PlaneAlignment onto = align_in_plane(overlay.path.points, overlay.estimate, false);
-    for (Eigen::Vector2d& point : overlay.path.points) point = onto * point;
-    plan.paths.push_back(overlay.path);
+  scale(way, factor);
+  scale(keyframes, factor);
+  plan.series = {series_of("estimate", Pen::line, way)};
+  for (Laid& laid : all) {
+    if (laid.path.empty()) continue;
+    scale(laid.estimate, factor);
+    const PlaneAlignment onto = align_in_plane(laid.path, laid.estimate, false);
+    for (Eigen::Vector2d& point : laid.path) point = onto * point;
+    plan.series.push_back(series_of(laid.label, laid.pen, laid.path));
   }
-  if (!keyframes.points.empty()) plan.paths.push_back(keyframes);
+  if (!keyframes.empty()) plan.series.push_back(series_of("keyframes", Pen::rings, keyframes));
   return plan;
 }
 

@@ -4,13 +4,13 @@
 #include "run_outputs.h"
 #include "worst_frames.h"
 
+#include "oneac/base/number_text.h"
 #include "oneac/base/version.h"
-#include "oneac/evaluation/html_page.h"
+#include "oneac/report/html_page.h"
 
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 
 namespace oneac::app {
@@ -21,17 +21,9 @@ using Json = nlohmann::ordered_json;
 constexpr std::size_t kPictures = 6;
 constexpr int kDigits = 5;  // significant ones in the tables; summary.json has them all
 
-/// C locale.
-std::string number_text(double value, int digits) {
-  char text[40];
-  const auto end =
-      std::to_chars(text, text + sizeof text, value, std::chars_format::general, digits).ptr;
-  return {text, end};
-}
-
 std::string value_text(const Json& value) {
   if (value.is_string()) return value.get<std::string>();
-  if (value.is_number_float()) return number_text(value.get<double>(), kDigits);
+  if (value.is_number_float()) return significant_text(value.get<double>(), kDigits);
   if (value.is_null()) return "–";
   if (value.is_boolean()) return value.get<bool>() ? "yes" : "no";
   return value.dump();
@@ -88,15 +80,16 @@ HtmlPage::Rows tiles_of(const DriveRecord& record, const RunEvaluation& evaluati
   if (!evaluation.against_poses) return tiles;
   const auto& trajectory = evaluation.against_poses->trajectory;
   if (trajectory) {
-    tiles.emplace_back("APE, RMS [m]", number_text(trajectory->ape.rmse, 3));
+    tiles.emplace_back("APE, RMS [m]", significant_text(trajectory->ape.rmse, 3));
     if (trajectory->subsequences) {
       tiles.emplace_back("t_rel [%]",
-                         number_text(100.0 * trajectory->subsequences->translation, 3));
-      tiles.emplace_back("r_rel [deg/100 m]",
-                         number_text(100.0 * trajectory->subsequences->rotation * 180.0 / M_PI, 3));
+                         significant_text(100.0 * trajectory->subsequences->translation, 3));
+      tiles.emplace_back(
+          "r_rel [deg/100 m]",
+          significant_text(100.0 * trajectory->subsequences->rotation * 180.0 / M_PI, 3));
     }
     if (trajectory->scale_error && scaled) {
-      tiles.emplace_back("scale error [%]", number_text(100.0 * *trajectory->scale_error, 3));
+      tiles.emplace_back("scale error [%]", significant_text(100.0 * *trajectory->scale_error, 3));
     }
   }
   return tiles;
@@ -111,10 +104,10 @@ void add_warnings(HtmlPage& page, const DriveRecord& record) {
 
 void add_curves(HtmlPage& page, const DriveRecord& record, const RunEvaluation& evaluation) {
   page.heading("The drive");
-  std::vector<std::string> svgs = {plan_svg(plan_of(record, evaluation))};
+  std::vector<std::string> svgs = {plot_svg(plan_of(record, evaluation))};
   page.figures(svgs);
   svgs.clear();
-  for (const SeriesPlot& plot : plots_of(record, evaluation)) svgs.push_back(plot_svg(plot));
+  for (const Plot& plot : plots_of(record, evaluation)) svgs.push_back(plot_svg(plot));
   page.figures(svgs);
 }
 
@@ -123,7 +116,9 @@ void add_pictures(HtmlPage& page, const DriveRecord& record, const RunEvaluation
   const std::vector<WorstFrame> frames = worst_frames(record, evaluation, kPictures);
   const std::vector<FramePicture> pictures = draw_frames(record, options, frames);
   if (pictures.empty()) return;
-  page.heading("Worst frames");
+  const bool bad = pictures.front().frame.bad;
+  page.heading(bad ? "Worst frames" : "A frame");
+  if (!bad) page.paragraph("No step of the drive was bad; this one had the fewest inliers.");
   page.paragraph(
       "Blue: correspondences that obey the pose of the step; orange: the others. A line runs from "
       "where a point was to where it is, its frame is what the affinity makes of a square. The "
@@ -132,7 +127,7 @@ void add_pictures(HtmlPage& page, const DriveRecord& record, const RunEvaluation
     const StepResult& step = *record.frames[picture.frame.frame].step;
     page.picture("images " + std::to_string(step.index1) + " and " + std::to_string(step.index2) +
                      ": " + picture.frame.reason,
-                 snapshot_svg(picture.snapshot));
+                 overlay_svg(picture.picture));
   }
 }
 

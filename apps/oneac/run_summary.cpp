@@ -1,5 +1,6 @@
 #include "run_summary.h"
 
+#include "oneac/base/number_text.h"
 #include "oneac/base/version.h"
 #include "oneac/evaluation/report.h"
 #include "oneac/geometry/angles.h"
@@ -8,7 +9,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <filesystem>
 #include <fstream>
 #include <thread>
@@ -246,12 +246,10 @@ std::string summary_json(const DriveRecord& record, const RunEvaluation& evaluat
 }
 
 std::string summary_text(const DriveRecord& record, const RunEvaluation& evaluation) {
-  char line[256];
-  const std::string metric = metric_word(record);
-  std::snprintf(line, sizeof line, "%zu frames, %.1f %s, metric: %s\n", record.frames.size(),
-                path_length(record.camera_trajectory().poses), metric == "none" ? "units" : "m",
-                metric.c_str());
-  std::string text = line;
+  const std::string metric = metric_word(record), unit = metric == "none" ? "units" : "m";
+  std::string text = std::to_string(record.frames.size()) + " frames, " +
+                     fixed_text(path_length(record.camera_trajectory().poses), 1) + " " + unit +
+                     ", metric: " + metric + "\n";
   if (record.source.undistorted_by_log) {
     text +=
         "images undistorted by the calibration in the log; if they are rectified, give theirs: "
@@ -264,14 +262,12 @@ std::string summary_text(const DriveRecord& record, const RunEvaluation& evaluat
   if (evaluation.against_gps) {
     const GpsComparison& gps = *evaluation.against_gps;
     if (gps.heading_change) {
-      std::snprintf(line, sizeof line, "change of heading %.2f deg (GPS course %.2f deg)\n",
-                    gps.estimated_heading_change / kDegree, *gps.heading_change / kDegree);
-      text += line;
+      text += "change of heading " + fixed_text(gps.estimated_heading_change / kDegree, 2) +
+              " deg (GPS course " + fixed_text(*gps.heading_change / kDegree, 2) + " deg)\n";
     }
     if (gps.distance) {
-      std::snprintf(line, sizeof line, "path %.2f %s (GPS speed: %.2f m)\n", gps.estimated_distance,
-                    metric == "none" ? "units" : "m", *gps.distance);
-      text += line;
+      text += "path " + fixed_text(gps.estimated_distance, 2) + " " + unit +
+              " (GPS speed: " + fixed_text(*gps.distance, 2) + " m)\n";
     }
   }
   return text;

@@ -1,27 +1,21 @@
 #include "worst_frames.h"
 
-#include "oneac/base/error.h"
+#include "oneac/base/number_text.h"
+#include "oneac/evaluation/statistics.h"
 #include "oneac/features/ac_tracker.h"
 #include "oneac/geometry/angles.h"
 #include "oneac/geometry/essential.h"
 
-#include <opencv2/core.hpp>
-#include <opencv2/imgcodecs.hpp>
-#include <opencv2/imgproc.hpp>
-
 #include <algorithm>
 #include <cmath>
-#include <cstdint>
-#include <cstdio>
 #include <map>
 #include <set>
 
 namespace oneac::app {
 namespace {
 
-constexpr double kWidestPicture = 960.0;  // [px] as wide as the page shows it
-constexpr std::size_t kApart = 5;         // frames: half a second at the usual 10 Hz
-constexpr int kJpegQuality = 80;          // no visible loss at this size
+constexpr std::size_t kApart = 5;          // frames: half a second at the usual 10 Hz
+constexpr double kFewInliers = 1.0 / 3.0;  // of the median: below, something is in the way
 
 /// Takes the first `share` of the candidates that are not chosen yet, the worst first.
 class Chooser {
@@ -42,7 +36,7 @@ class Chooser {
   }
   [[nodiscard]] std::vector<WorstFrame> result() const {
     std::vector<WorstFrame> frames;
-    for (const auto& [frame, reason] : taken_) frames.push_back({frame, reason});
+    for (const auto& [frame, reason] : taken_) frames.push_back({frame, reason, true});
     return frames;
   }
 
@@ -67,26 +61,26 @@ double badness(const PairError& error) {
 }
 
 std::string error_text(const PairError& error) {
-  char text[96];
-  int length =
-      std::snprintf(text, sizeof text, "rotation off by %.3f deg", error.rotation / kDegree);
-  if (error.direction) {
-    length += std::snprintf(text + length, sizeof text - static_cast<std::size_t>(length),
-                            ", direction by %.2f deg", *error.direction / kDegree);
-  }
-  return {text, static_cast<std::size_t>(length)};
+  std::string text = "rotation off by " + fixed_text(error.rotation / kDegree, 3) + "°";
+  if (error.direction) text += ", direction by " + fixed_text(*error.direction / kDegree, 2) + "°";
+  return text;
 }
 
-/// JPEG no wider than the page shows it.
-std::string jpeg_of(const ImageView& image) {
-  const cv::Mat grey(image.height, image.width, CV_8UC1, const_cast<std::uint8_t*>(image.data),
-                     static_cast<std::size_t>(image.stride));
-  cv::Mat small = grey;
-  const double factor = kWidestPicture / image.width;
-  if (factor < 1.0) cv::resize(grey, small, {}, factor, factor, cv::INTER_AREA);
-  std::vector<std::uint8_t> bytes;
-  cv::imencode(".jpg", small, bytes, {cv::IMWRITE_JPEG_QUALITY, kJpegQuality});
-  return {bytes.begin(), bytes.end()};
+/// Errors of the steps in a wrong basin, by their frame.
+std::map<std::size_t, PairError> bad_errors(const DriveRecord& record,
+                                            const RunEvaluation& evaluation) {
+  std::map<std::size_t, PairError> errors;
+  if (!evaluation.against_poses) return errors;
+  std::map<std::size_t, PairError> of_index;
+  for (const PairError& error : evaluation.against_poses->pairs) {
+    if (error.is_bad()) of_index[error.index2] = error;
+  }
+  for (std::size_t i = 0; i < record.frames.size(); ++i) {
+    if (!record.frames[i].step) continue;
+    const auto found = of_index.find(record.frames[i].step->index2);
+    if (found != of_index.end()) errors[i] = found->second;
+  }
+  return errors;
 }
 
 /// Distance from the motion in normalised units: of the epipolar line, or, of a camera that did not
@@ -107,62 +101,58 @@ MotionHint hint_of(const DriveRecord& record, const StepResult& step, const Pinh
   return hint;
 }
 
-Snapshot snapshot_of(const DriveRecord& record, const RunOptions& options, const StepResult& step,
-                     const CameraFrame& first, const CameraFrame& second) {
+Overlay overlay_of(const DriveRecord& record, const RunOptions& options, const StepResult& step,
+                   const CameraFrame& first, const CameraFrame& second) {
   const auto tracker = make_tracker(options.front_end.features);
   const MotionHint hint = hint_of(record, step, first.camera);
   (void)tracker->advance(tracker->prepare(first.image.view()), hint);
   const TrackedPair pair = tracker->advance(tracker->prepare(second.image.view()), hint);
-  Snapshot snapshot;
-  snapshot.width = second.image.width();
-  snapshot.height = second.image.height();
-  snapshot.jpeg = jpeg_of(second.image.view());
-  snapshot.acs = affine_parts(pair);
+  Overlay overlay{second.image.width(), second.image.height(), jpeg_of(second.image.view()), {}};
   const double bound = options.front_end.consensus.threshold_px / second.camera.focal_px();
-  for (const AffineCorrespondence& ac : snapshot.acs) {
+  for (const Correspondence& ac : pair.correspondences) {
     const double r = distance(step.pose, normalise(ac, first.camera, second.camera));
-    snapshot.inlier.push_back(r <= bound);
+    overlay.marks.push_back({ac.x1, ac.x2, ac.A, r <= bound ? 0.0 : 1.0});
   }
-  return snapshot;
+  return overlay;
 }
 
 }  // namespace
 
 std::vector<WorstFrame> worst_frames(const DriveRecord& record, const RunEvaluation& evaluation,
                                      std::size_t count) {
-  std::vector<std::size_t> steps, predicted;
-  std::map<std::size_t, std::size_t> frame_of_index;
+  const auto step = [&](std::size_t i) -> const StepResult& { return *record.frames[i].step; };
+  std::vector<std::size_t> steps, predicted, few;
+  std::vector<double> inliers;
   for (std::size_t i = 0; i < record.frames.size(); ++i) {
     if (!record.frames[i].step) continue;
     steps.push_back(i);
-    frame_of_index[record.frames[i].step->index2] = i;
-    if (record.frames[i].step->status == StepStatus::kPredicted) predicted.push_back(i);
+    inliers.push_back(static_cast<double>(step(i).inliers));
+    if (step(i).status == StepStatus::kPredicted) predicted.push_back(i);
   }
-  std::map<std::size_t, PairError> errors;
-  if (evaluation.against_poses) {
-    for (const PairError& error : evaluation.against_poses->pairs) {
-      const auto found = frame_of_index.find(error.index2);
-      if (found != frame_of_index.end()) errors[found->second] = error;
-    }
-  }
-  const auto step = [&](std::size_t i) -> const StepResult& { return *record.frames[i].step; };
+  if (steps.empty()) return {};
+  const double usual = percentile(inliers, 50.0);
+  std::copy_if(steps.begin(), steps.end(), std::back_inserter(few), [&](std::size_t i) {
+    return static_cast<double>(step(i).inliers) < kFewInliers * usual;
+  });
   const auto fewer = [&](std::size_t a, std::size_t b) {
     return step(a).inliers < step(b).inliers;
   };
+  std::map<std::size_t, PairError> errors = bad_errors(record, evaluation);
+  std::vector<std::size_t> judged;
+  for (const auto& [frame, error] : errors) judged.push_back(frame);
   Chooser chooser(count);
   chooser.take(predicted, count / 3, fewer, [&](std::size_t i) {
     return "the images did not carry the step, " + inliers_text(step(i));
   });
-  std::vector<std::size_t> judged;
-  judged.reserve(errors.size());
-  for (const auto& [frame, error] : errors) judged.push_back(frame);
   chooser.take(
       judged, count / 3,
       [&](std::size_t a, std::size_t b) { return badness(errors[a]) > badness(errors[b]); },
       [&](std::size_t i) { return "far from the reference: " + error_text(errors[i]); });
-  chooser.take(steps, count, fewer,
-               [&](std::size_t i) { return "among the fewest inliers: " + inliers_text(step(i)); });
-  return chooser.result();
+  chooser.take(few, count, fewer,
+               [&](std::size_t i) { return "few inliers: " + inliers_text(step(i)); });
+  if (!chooser.result().empty()) return chooser.result();
+  const std::size_t least = *std::min_element(steps.begin(), steps.end(), fewer);
+  return {{least, "the fewest inliers of the drive: " + inliers_text(step(least)), false}};
 }
 
 std::vector<FramePicture> draw_frames(const DriveRecord& record, const RunOptions& options,
@@ -184,8 +174,8 @@ std::vector<FramePicture> draw_frames(const DriveRecord& record, const RunOption
     for (const WorstFrame& frame : frames) {
       const StepResult& step = *record.frames[frame.frame].step;
       pictures.push_back(
-          {frame, snapshot_of(record, options, step, source.load(tickets.at(step.index1)),
-                              source.load(tickets.at(step.index2)))});
+          {frame, overlay_of(record, options, step, source.load(tickets.at(step.index1)),
+                             source.load(tickets.at(step.index2)))});
     }
   } catch (const std::exception&) {
     // The log changed under the run, or the images went: the pictures so far are the report's.

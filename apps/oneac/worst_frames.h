@@ -4,7 +4,7 @@
 #include "run_options.h"
 #include "run_summary.h"
 
-#include "oneac/evaluation/snapshot_svg.h"
+#include "oneac/report/overlay.h"
 
 #include <cstddef>
 #include <string>
@@ -16,16 +16,18 @@ namespace oneac::app {
 struct WorstFrame {
   std::size_t frame = 0;  ///< of the record; its step leads to it
   std::string reason;     ///< why it was chosen
+  bool bad = false;       ///< something went wrong in it
 };
 
 /// A step's second image with its correspondences, those that obey the step's pose marked.
 struct FramePicture {
   WorstFrame frame;
-  Snapshot snapshot;
+  Overlay picture;
 };
 
-/// Up to `count` steps in order of time: those that the images did not carry, those that are
-/// farthest from the reference, those with the fewest inliers.
+/// Up to `count` bad steps in order of time: those that the images did not carry, those that are in
+/// a wrong basin by the reference (PairError::is_bad), those with less than a third of the drive's
+/// usual inliers. Without any, the one with the fewest inliers.
 [[nodiscard]] std::vector<WorstFrame> worst_frames(const DriveRecord& record,
                                                    const RunEvaluation& evaluation,
                                                    std::size_t count);

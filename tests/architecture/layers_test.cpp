@@ -16,9 +16,10 @@ const fs::path kModules = fs::path(ONEAC_SOURCE_DIR) / "modules";
 /// What each module may include, itself left out; the arrows of docs/architecture.md.
 const std::map<std::string, std::set<std::string>> kMayInclude = {
     {"base", {}},
+    {"report", {"base"}},
     {"geometry", {"base"}},
     {"solvers", {"geometry", "base"}},
-    {"study", {"solvers", "geometry", "base"}},
+    {"study", {"solvers", "geometry", "report", "base"}},
     {"robust", {"solvers", "geometry", "base"}},
     {"features", {"geometry", "base"}},
     {"refine", {"geometry", "base"}},
@@ -33,7 +34,7 @@ const std::map<std::string, std::set<std::string>> kMayInclude = {
     {"evaluation", {"geometry", "base"}},
     {"comparison",
      {"initialisers", "features", "robust", "solvers", "rawlog", "evaluation", "observations",
-      "geometry", "base", "mrpt_compat"}},
+      "geometry", "report", "base", "mrpt_compat"}},
 };
 
 /// Third-party headers that a module's public headers must not show.

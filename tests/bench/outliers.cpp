@@ -9,10 +9,10 @@
 #include "stress.h"
 
 #include "oneac/base/atomic_file.h"
+#include "oneac/report/plot.h"
 #include "oneac/robust/gc_ransac.h"
 #include "oneac/robust/one_ac_consensus.h"
 #include "oneac/solvers/registry.h"
-#include "oneac/study/line_plot.h"
 
 #include <algorithm>
 #include <cmath>
@@ -54,15 +54,19 @@ std::vector<Contestant> contestants() {
           in_gc_ransac("essential_8pc", true)};
 }
 
-void draw(const std::string& path, std::vector<PlotCurve> curves) {
-  LinePlot plot;
+void draw(const std::string& path, std::vector<PlotSeries> series) {
+  Plot plot;
+  plot.from_zero = true;
   plot.title = "Time of an estimate";
   plot.subtitle = "KITTI 03, VLFeat, median over the pairs; 1AC ground, 5PC, 8PC in GC-RANSAC";
   plot.x_label = "wrong correspondences [%]";
   plot.y_label = "time [log10 of µs]";
-  for (const double share : kShares) plot.x.push_back(100.0 * share);
-  plot.curves = std::move(curves);
-  write_file_atomically(path, svg_of(plot));
+  for (PlotSeries& curve : series) {
+    curve.pen = Pen::markers;
+    for (const double share : kShares) curve.x.push_back(100.0 * share);
+  }
+  plot.series = std::move(series);
+  write_file_atomically(path, plot_document(plot));
 }
 
 int run(int argc, char** argv) {
@@ -73,7 +77,7 @@ int run(int argc, char** argv) {
   const std::size_t every = std::strtoul(argv[3], nullptr, 10);
   const std::vector<LogPair> pairs = pairs_of_log(argv[1], every, "vlfeat");
   const Trajectory truth = read_trajectory(argv[2]);
-  std::vector<PlotCurve> curves;
+  std::vector<PlotSeries> curves;
   std::printf("| ms (wrong basins of %zu) |", pairs.size());
   for (const double share : kShares) std::printf(" %.0f %% |", 100.0 * share);
   std::printf("\n|---|");

@@ -197,8 +197,8 @@ TEST_F(CompareVerb, ReportNeedsNothingFromElsewhere) {
   EXPECT_NE(html.find("data:image/jpeg;base64,"), std::string::npos);
   EXPECT_NE(html.find("prefers-color-scheme:dark"), std::string::npos);
   std::size_t plots = 0;
-  for (auto at = html.find("<svg class=\"cdf\""); at != std::string::npos;
-       at = html.find("<svg class=\"cdf\"", at + 1)) {
+  for (auto at = html.find("<svg class=\"plot\""); at != std::string::npos;
+       at = html.find("<svg class=\"plot\"", at + 1)) {
     ++plots;
   }
   EXPECT_EQ(plots, 4U);

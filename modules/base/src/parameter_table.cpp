@@ -1,6 +1,7 @@
 #include "oneac/base/parameter_table.h"
 
 #include "oneac/base/nearest_name.h"
+#include "oneac/base/number_text.h"
 
 #include <algorithm>
 #include <charconv>
@@ -36,9 +37,7 @@ const char* type_name(const ParameterTable::Target& target) {
 
 /// Shortest text that reads back as the same number; a decimal point marks it as real.
 std::string text_of(double value) {
-  char buffer[40];
-  const auto end = std::to_chars(buffer, buffer + sizeof buffer, value).ptr;
-  std::string text(buffer, end);
+  std::string text = exact_text(value);
   if (text.find_first_of(".einf") == std::string::npos) text += ".0";
   return text;
 }

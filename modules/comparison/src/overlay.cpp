@@ -1,26 +1,15 @@
 #include "oneac/comparison/overlay.h"
 
-#include "text.h"
-
 #include "oneac/base/error.h"
 #include "oneac/comparison/pair_stream.h"
 #include "oneac/comparison/summary.h"
 #include "oneac/evaluation/pair_errors.h"
-
-#include <opencv2/imgcodecs.hpp>
-#include <opencv2/imgproc.hpp>
 
 #include <algorithm>
 #include <filesystem>
 
 namespace oneac {
 namespace {
-
-// What keeps a report with a handful of pictures below a megabyte.
-constexpr int kWidestPicture_px = 960;
-constexpr int kJpegQuality = 75;
-// BGR: blue and orange differ for every kind of colour vision, and from grey.
-const cv::Scalar kInlier(255, 170, 40), kOutlier(0, 120, 255);
 
 /// How bad a pair is for a method: above 1 is a failure.
 double badness(const PairRecord& pair, std::size_t method) {
@@ -40,37 +29,19 @@ double badness(const PairRecord& pair, std::size_t method) {
   return worst;
 }
 
-struct Picture {
-  GreyImage image;
-  PairAcs pair;
-};
+/// In pixels of the images.
+Mark mark_of(const AffineCorrespondence& ac, const PinholeCamera& camera, bool inlier) {
+  const Eigen::Vector2d f(camera.fx, camera.fy);
+  return {camera.project(ac.x1), camera.project(ac.x2),
+          f.asDiagonal() * ac.A * f.cwiseInverse().asDiagonal(), inlier ? 0.0 : 1.0};
+}
 
-std::string drawn(const Picture& picture, const std::vector<bool>& inliers) {
-  const ImageView view = picture.image.view();
-  const cv::Mat grey(view.height, view.width, CV_8U, const_cast<std::uint8_t*>(view.data),
-                     static_cast<std::size_t>(view.stride));
-  cv::Mat canvas;
-  cv::cvtColor(grey, canvas, cv::COLOR_GRAY2BGR);
-  const auto pixel = [&](const Eigen::Vector2d& x) {
-    const Eigen::Vector2d u = picture.pair.camera.project(x);
-    return cv::Point(static_cast<int>(u.x()), static_cast<int>(u.y()));
-  };
-  for (const bool good : {false, true}) {  // inliers on top
-    for (std::size_t i = 0; i < picture.pair.acs.size(); ++i) {
-      if ((i < inliers.size() && inliers[i]) != good) continue;
-      const AffineCorrespondence& ac = picture.pair.acs[i];
-      const cv::Scalar& colour = good ? kInlier : kOutlier;
-      cv::line(canvas, pixel(ac.x1), pixel(ac.x2), colour, 1, cv::LINE_AA);
-      cv::circle(canvas, pixel(ac.x2), 2, colour, cv::FILLED, cv::LINE_AA);
-    }
+Overlay overlay_of(const GreyImage& image, const PairAcs& pair, const std::vector<bool>& inliers) {
+  Overlay overlay{image.width(), image.height(), jpeg_of(image.view()), {}};
+  for (std::size_t i = 0; i < pair.acs.size(); ++i) {
+    overlay.marks.push_back(mark_of(pair.acs[i], pair.camera, i < inliers.size() && inliers[i]));
   }
-  if (canvas.cols > kWidestPicture_px) {
-    const double scale = static_cast<double>(kWidestPicture_px) / canvas.cols;
-    cv::resize(canvas, canvas, {}, scale, scale, cv::INTER_AREA);
-  }
-  std::vector<unsigned char> jpeg;
-  cv::imencode(".jpg", canvas, jpeg, {cv::IMWRITE_JPEG_QUALITY, kJpegQuality});
-  return internal::base64(jpeg);
+  return overlay;
 }
 
 /// Draws the chosen pairs of one log in one pass over it.
@@ -100,19 +71,17 @@ class LogDrawing {
   }
 
  private:
-  [[nodiscard]] std::string picture(const RawlogSource& source, const FrameTicket& first,
-                                    const FrameTicket& second, const LogRecord& log) const {
+  [[nodiscard]] Overlay picture(const RawlogSource& source, const FrameTicket& first,
+                                const FrameTicket& second, const LogRecord& log) const {
     const StreamPair pair{0, std::make_shared<StreamImage>(source, extractor_, first),
                           std::make_shared<StreamImage>(source, extractor_, second)};
-    Picture picture;
-    picture.pair = pair.correspond(extractor_);
-    picture.image = source.load(second).image;
+    const PairAcs acs = pair.correspond(extractor_);
     InitialiserInput input;
-    input.acs = picture.pair.acs;
+    input.acs = acs.acs;
     input.R_level_cam = leveling_rotation(log.tilt);
-    input.focal_px = picture.pair.camera.focal_px();
+    input.focal_px = acs.camera.focal_px();
     input.seed = settings_.seed;
-    return drawn(picture, method_->estimate(input).inliers);
+    return overlay_of(source.load(second).image, acs, method_->estimate(input).inliers);
   }
 
   const ComparisonData& data_;

@@ -1,6 +1,7 @@
 #include "oneac/comparison/tables.h"
 
-#include "text.h"
+#include "oneac/base/number_text.h"
+#include "oneac/report/table.h"
 
 #include <charconv>
 #include <cmath>
@@ -9,7 +10,6 @@
 namespace oneac {
 namespace {
 
-using internal::decimals;
 using Number = std::optional<double>;
 
 constexpr const char* kEmpty = "–";
@@ -76,7 +76,7 @@ TableBlock block_of(const std::vector<MethodSummary>& rows, const Quantity& quan
   block.best.assign(methods, std::vector<bool>(block.logs.size(), false));
   for (std::size_t i = 0; i < rows.size(); ++i) {
     const Number value = quantity.get(rows[i]);
-    if (value) block.cells[i % methods][i / methods] = decimals(*value, quantity.digits);
+    if (value) block.cells[i % methods][i / methods] = fixed_text(*value, quantity.digits);
   }
   mark_best(block);
   return block;
@@ -109,27 +109,24 @@ std::vector<TableBlock> table_blocks(const std::vector<MethodSummary>& rows) {
   return blocks;
 }
 
+Cell cell_of(const TableBlock& block, std::size_t method, std::size_t log) {
+  return {block.cells[method][log], block.best[method][log] ? Cell::Mark::best : Cell::Mark::none};
+}
+
 std::string table_md(const std::vector<TableBlock>& blocks) {
-  std::string text;
+  if (blocks.empty()) return "";
+  Table table{"", {"", "method"}, {}, 2};
+  const std::vector<std::string>& logs = blocks.front().logs;
+  table.head.insert(table.head.end(), logs.begin(), logs.end());
   for (const TableBlock& block : blocks) {
-    if (text.empty()) {
-      text = "| | method |";
-      for (const std::string& log : block.logs) text += " " + log + " |";
-      text += "\n|---|---|";
-      for (std::size_t i = 0; i < block.logs.size(); ++i) text += "--:|";
-      text += "\n";
-    }
     for (std::size_t m = 0; m < block.methods.size(); ++m) {
-      text += "| " + (m == 0 ? "**" + block.title + "**" : std::string()) + " | " +
-              block.methods[m] + " |";
+      table.rows.push_back({{m == 0 ? block.title : "", Cell::Mark::best}, {block.methods[m]}});
       for (std::size_t log = 0; log < block.logs.size(); ++log) {
-        const std::string& value = block.cells[m][log];
-        text += block.best[m][log] ? " **" + value + "** |" : " " + value + " |";
+        table.rows.back().push_back(cell_of(block, m, log));
       }
-      text += "\n";
     }
   }
-  return text;
+  return table_md(table);
 }
 
 std::string table_tex(const std::vector<TableBlock>& blocks) {

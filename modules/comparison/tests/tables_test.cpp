@@ -81,11 +81,12 @@ TEST(HtmlReport, NeedsNothingFromElsewhereAndEscapesNames) {
   result.status = "ok";
   pair.results = {result};
   data.pairs = {pair};
-  const std::string html = html_report(data, summarise(data), {{0, 0, "AAAA"}}, {"a < b"});
+  const std::string html =
+      html_report(data, summarise(data), {{0, 0, {1, 1, "foo", {}}}}, {"a < b"});
   EXPECT_EQ(html.find("http"), std::string::npos);
   EXPECT_NE(html.find("&lt;script&gt;"), std::string::npos);
   EXPECT_NE(html.find("a &lt; b"), std::string::npos);
-  EXPECT_NE(html.find("data:image/jpeg;base64,AAAA"), std::string::npos);
+  EXPECT_NE(html.find("data:image/jpeg;base64,Zm9v"), std::string::npos);
   EXPECT_NE(html.find("prefers-color-scheme:dark"), std::string::npos);
 }
 

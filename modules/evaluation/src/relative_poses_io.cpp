@@ -3,6 +3,7 @@
 #include "text_io.h"
 
 #include "oneac/base/error.h"
+#include "oneac/base/number_text.h"
 
 #include <Eigen/Geometry>
 
@@ -130,7 +131,8 @@ std::string row_text(const RelativePoseRow& row) {
   if (q.w() < 0.0) q.coeffs() = -q.coeffs();
   const Eigen::Vector3d& t = row.T_2_1.t;
   std::string line = std::to_string(row.index1) + ',' + std::to_string(row.index2) + ',' +
-                     time_text(row.t1) + ',' + time_text(row.t2);
+                     exact_fixed_text(row.t1, kTimeDecimals) + ',' +
+                     exact_fixed_text(row.t2, kTimeDecimals);
   for (double v : {q.w(), q.x(), q.y(), q.z(), t.x(), t.y(), t.z()}) line += ',' + exact_text(v);
   return line + (row.metric ? ",1," : ",0,") + std::to_string(row.inliers) + ',' +
          std::to_string(row.acs) + ',' + row.status + '\n';

@@ -1,6 +1,6 @@
 #include "oneac/evaluation/report.h"
 
-#include "text_io.h"
+#include "oneac/base/number_text.h"
 
 #include <nlohmann/json.hpp>
 

@@ -3,7 +3,6 @@
 #include "oneac/base/error.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <fstream>
 #include <iterator>
@@ -13,23 +12,12 @@ namespace oneac {
 namespace {
 
 constexpr std::string_view kBlanks = " \t\r\v\f";
-// The longest double without an exponent has 309 digits before the point.
-constexpr std::size_t kLongestNumber = 512;
-constexpr std::size_t kTimeDecimals = 6;
 constexpr double kNumberBound = 1e15;  // beyond any time or length, far below overflow
 
 std::string_view trimmed(std::string_view text) {
   const std::size_t first = text.find_first_not_of(kBlanks);
   if (first == std::string_view::npos) return {};
   return text.substr(first, text.find_last_not_of(kBlanks) - first + 1);
-}
-
-template <class... Format>
-std::string number_text(double value, Format... format) {
-  std::array<char, kLongestNumber> buffer{};
-  char* const end = buffer.data() + buffer.size();
-  const auto result = std::to_chars(buffer.data(), end, value + 0.0, format...);  // -0 + 0 = 0
-  return {buffer.data(), result.ptr};
 }
 
 }  // namespace
@@ -94,26 +82,6 @@ std::optional<double> parse_finite(std::string_view field) {
   if (result.ec != std::errc() || result.ptr != end) return std::nullopt;
   if (!(std::abs(value) < kNumberBound)) return std::nullopt;  // NaN too
   return value;
-}
-
-std::string exact_text(double value) {
-  return number_text(value);
-}
-
-std::string time_text(double time_s) {
-  std::string text = number_text(time_s, std::chars_format::fixed);
-  const std::size_t point = text.find('.');
-  if (point == std::string::npos) return text + "." + std::string(kTimeDecimals, '0');
-  const std::size_t decimals = text.size() - point - 1;
-  if (decimals < kTimeDecimals) text.append(kTimeDecimals - decimals, '0');
-  return text;
-}
-
-std::string fixed_text(double value, int decimals) {
-  std::string text = number_text(value, std::chars_format::fixed, decimals);
-  const bool is_zero = text.find_first_not_of("-0.") == std::string::npos;
-  if (is_zero && text.front() == '-') text.erase(0, 1);
-  return text;
 }
 
 }  // namespace oneac

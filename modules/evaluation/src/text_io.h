@@ -10,6 +10,9 @@
 
 namespace oneac {
 
+/// Of times in files: microseconds, more where a time has them.
+inline constexpr int kTimeDecimals = 6;
+
 /// A line of a text file without its end and surrounding blanks.
 struct TextLine {
   std::size_t number = 0;  ///< counted from 1
@@ -42,14 +45,5 @@ template <class Integer>
   if (result.ec != std::errc() || result.ptr != end) return std::nullopt;
   return value;
 }
-
-/// The shortest text that reads back as the same double; -0 as 0. @pre finite
-[[nodiscard]] std::string exact_text(double value);
-
-/// Likewise without an exponent and with at least six decimals. @pre finite, |value| < 1e15
-[[nodiscard]] std::string time_text(double time_s);
-
-/// With this many decimals; never "-0.00". @pre finite
-[[nodiscard]] std::string fixed_text(double value, int decimals);
 
 }  // namespace oneac

@@ -3,6 +3,7 @@
 #include "text_io.h"
 
 #include "oneac/base/error.h"
+#include "oneac/base/number_text.h"
 
 #include <Eigen/Dense>
 
@@ -166,7 +167,7 @@ std::string format_tum(const Trajectory& trajectory) {
     const Eigen::Vector3d p = trajectory.poses[k].translation();
     Eigen::Quaterniond q(trajectory.poses[k].linear());
     if (q.w() < 0.0) q.coeffs() = -q.coeffs();
-    text += time_text(trajectory.times[k]);
+    text += exact_fixed_text(trajectory.times[k], kTimeDecimals);
     for (double v : {p.x(), p.y(), p.z(), q.x(), q.y(), q.z(), q.w()}) text += ' ' + exact_text(v);
     text += '\n';
   }

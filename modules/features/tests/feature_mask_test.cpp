@@ -64,8 +64,8 @@ TEST(FeatureMask, KeepsCornersAndTracksAway) {
     moved.shift = {0.0, 6.0};
     static_cast<void>(tracker->advance(tracker->prepare(render(Texture(31), View{}).view()), {}));
     const auto pair = tracker->advance(tracker->prepare(render(Texture(31), moved).view()), {});
-    EXPECT_GT(pair.acs.size(), 50U) << extractor;
-    for (const auto& ac : pair.acs) {
+    EXPECT_GT(pair.size(), 50U) << extractor;
+    for (const auto& ac : pair.correspondences) {
       EXPECT_LT(ac.x1.y(), 200.5);
       EXPECT_LT(ac.x2.y(), 200.5);
     }

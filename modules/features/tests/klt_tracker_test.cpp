@@ -3,7 +3,6 @@
 
 #include "oneac/base/error.h"
 #include "oneac/features/ac_tracker.h"
-#include "oneac/features/draw_tracks.h"
 #include "oneac/features/feature_options.h"
 #include "oneac/test_support/temporary_folder.h"
 
@@ -252,7 +251,8 @@ TEST(KltTracker, StartsAnewAfterReset) {
   tracker->reset();
   EXPECT_TRUE(feed(*tracker, render(Texture(11), shifted(8, 0))).empty());
   const auto before = track_numbers(pair);
-  for (const std::uint64_t track : track_numbers(feed(*tracker, render(Texture(11), shifted(12, 0))))) {
+  for (const std::uint64_t track :
+       track_numbers(feed(*tracker, render(Texture(11), shifted(12, 0))))) {
     EXPECT_EQ(std::count(before.begin(), before.end(), track), 0) << track;
   }
 }
@@ -271,18 +271,6 @@ TEST(KltTracker, RefusesImagesOfAnotherSize) {
   const auto tracker = make_tracker(klt());
   feed(*tracker, GreyImage(200, 100, 90));
   EXPECT_THROW(feed(*tracker, GreyImage(100, 100, 90)), std::invalid_argument);
-}
-
-TEST(DrawTracks, WritesAPicture) {
-  const TemporaryFolder folder;
-  const GreyImage image = render(Texture(12), shifted(0, 0));
-  TrackedPair pair;
-  pair.correspondences.emplace_back();
-  pair.correspondences.back().x1 = {100.0, 100.0};
-  pair.correspondences.back().x2 = {110.0, 104.0};
-  draw_tracks(image.view(), pair, folder.path() / "tracks.png");
-  EXPECT_GT(std::filesystem::file_size(folder.path() / "tracks.png"), 1000U);
-  EXPECT_THROW(draw_tracks(image.view(), pair, folder.path() / "none" / "tracks.png"), OutputError);
 }
 
 }  // namespace

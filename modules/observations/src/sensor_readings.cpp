@@ -1,5 +1,6 @@
 #include "oneac/observations/sensor_readings.h"
 
+#include "oneac/geometry/angles.h"
 #include "oneac/mrpt_compat/observations.h"
 
 #include <mrpt/math/TPoint3D.h>
@@ -14,7 +15,6 @@ namespace {
 
 constexpr double kMergeWithin = 0.5;             // [s] GGA and RMC of one epoch at the usual 1 Hz
 constexpr double kKnot = 1852.0 / 3600.0;        // [m/s]
-constexpr double kDegree = M_PI / 180.0;         // [rad]
 constexpr double kFullTurn = 2.0 * M_PI + 1e-9;  // [rad]
 constexpr int kNoFix = 0;                        // GGA fix quality
 constexpr std::int8_t kRmcValid = 'A';

@@ -1,14 +1,11 @@
 #include "camera_mount.h"
 
+#include "oneac/geometry/angles.h"
 #include "oneac/geometry/camera_frame.h"
 #include "oneac/geometry/leveling.h"
 
 namespace oneac::simulation {
-namespace {
-
-constexpr double kDegree = 0.017453292519943295;
-
-}  // namespace
+namespace {}  // namespace
 
 PinholeCamera camera_of(const SimulationOptions& options) {
   PinholeCamera camera;

@@ -1,15 +1,12 @@
 #include "oneac/study/claims.h"
 
-#include "number_text.h"
+#include "oneac/base/number_text.h"
 
 #include <algorithm>
 #include <array>
 
 namespace oneac {
 namespace {
-
-using internal::decimals;
-using internal::significant;
 
 constexpr std::array<StudyMetric, 2> kPose = {StudyMetric::rotation, StudyMetric::translation};
 // "Below approx. 1.0 degree": the sweep's points up to this tilt must be won.
@@ -35,18 +32,19 @@ struct CrossingFinder {
 
 [[nodiscard]] std::string where(const std::optional<double>& lost_from, StudySweep sweep) {
   if (!lost_from) return "stays lower to the end";
-  return "lower up to " + decimals(*lost_from, 2) + " " + std::string(sweep_unit(sweep));
+  return "lower up to " + fixed_text(*lost_from, 2) + " " + std::string(sweep_unit(sweep));
 }
 
 [[nodiscard]] std::string item(const ExperimentResult& result, StudyMethod theirs,
                                StudyMetric metric, const Comparison& comparison) {
   const StudyMethod ours = result.experiment->methods.front();
-  std::string text =
-      std::string(result.experiment->title) + ", " + std::string(metric_name(metric)) + ": " +
-      std::string(ours->label) + " against " + std::string(theirs->label) + ": lower mean at " +
-      std::to_string(comparison.won) + " of " + std::to_string(comparison.points) +
-      " points (median: " + std::to_string(comparison.won_by_median) + "), mean ratio " +
-      significant(comparison.best_ratio, 2) + " … " + significant(comparison.worst_ratio, 2);
+  std::string text = std::string(result.experiment->title) + ", " +
+                     std::string(metric_name(metric)) + ": " + std::string(ours->label) +
+                     " against " + std::string(theirs->label) + ": lower mean at " +
+                     std::to_string(comparison.won) + " of " + std::to_string(comparison.points) +
+                     " points (median: " + std::to_string(comparison.won_by_median) +
+                     "), mean ratio " + significant_text(comparison.best_ratio, 2) + " … " +
+                     significant_text(comparison.worst_ratio, 2);
   const StudySweep sweep = result.experiment->sweep;
   if (sweep != StudySweep::wall_angle && !comparison.won_all()) {
     text += "; mean " + where(comparison.lost_from, sweep) + ", median " +
@@ -109,9 +107,9 @@ void add_findings(const ExperimentResult* result, Claim& claim, Judge&& judge) {
                                           study_method("homography_4pc"), metric, true);
     text += metric == StudyMetric::rotation ? " in rotation " : ", in translation ";
     if (!comparison.lost_from) {
-      text += "nowhere up to 1 px (ratio " + decimals(comparison.last_ratio, 2) + " there)";
+      text += "nowhere up to 1 px (ratio " + fixed_text(comparison.last_ratio, 2) + " there)";
     } else {
-      text += comparison.won_first ? "from " + decimals(*comparison.lost_from, 2) + " px"
+      text += comparison.won_first ? "from " + fixed_text(*comparison.lost_from, 2) + " px"
                                    : "from the lowest noise on";
     }
   }
@@ -152,7 +150,7 @@ void add_findings(const ExperimentResult* result, Claim& claim, Judge&& judge) {
       }
     }
   }
-  return least ? "first loss at " + decimals(*least, 2) + "°" : "no loss up to 1°";
+  return least ? "first loss at " + fixed_text(*least, 2) + "°" : "no loss up to 1°";
 }
 
 [[nodiscard]] Claim tilt_claim(const StudyResult& result) {

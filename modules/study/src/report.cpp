@@ -1,17 +1,15 @@
 #include "oneac/study/report.h"
 
-#include "number_text.h"
-
 #include "oneac/base/atomic_file.h"
-#include "oneac/study/line_plot.h"
+#include "oneac/base/number_text.h"
+#include "oneac/report/plot.h"
+#include "oneac/report/table.h"
 
 namespace oneac {
 namespace {
 
-using internal::decimals;
-using internal::significant;
-
-constexpr int kDigits = 8;  // in the CSV: enough to draw and compare, short enough to read
+constexpr double kHeight = 350.0;  // [px] of 540 px of width
+constexpr int kDigits = 8;         // in the CSV: enough to draw and compare, short enough to read
 
 [[nodiscard]] std::string letter(std::string_view id) {
   return "(" + std::string(id) + ") ";
@@ -38,31 +36,33 @@ std::string csv_of(const ExperimentResult& result, const Figure& figure, std::si
   for (const PointResult& point : result.points) {
     for (const StudyMethodResult& method : point.methods) {
       const ErrorStatistics& errors = method.of(figure.metric);
-      csv += decimals(point.value, 1) + "," + std::string(method.method->label) + "," +
-             std::to_string(trials) + "," + std::to_string(trials - method.solved) + "," +
-             significant(errors.mean, kDigits) + "," + significant(errors.median, kDigits) + "," +
-             significant(errors.p95, kDigits) + "\n";
+      csv += csv_line(
+          {fixed_text(point.value, 1), std::string(method.method->label), std::to_string(trials),
+           std::to_string(trials - method.solved), significant_text(errors.mean, kDigits),
+           significant_text(errors.median, kDigits), significant_text(errors.p95, kDigits)});
     }
   }
   return csv;
 }
 
 std::string svg_of(const ExperimentResult& result, const Figure& figure, DataUse data_use) {
-  LinePlot plot;
+  Plot plot;
+  plot.height = kHeight;
+  plot.from_zero = true;
   plot.title = letter(figure.id) + std::string(result.experiment->title);
   plot.subtitle = subtitle_of(result.experiment->sweep, data_use);
   plot.x_label = std::string(sweep_label(result.experiment->sweep));
   plot.y_label = y_label(figure.metric);
   for (const StudyMethod method : result.experiment->methods) {
-    plot.curves.push_back({std::string(method->label), {}});
+    plot.series.push_back({std::string(method->label), {}, {}, Pen::markers});
   }
   for (const PointResult& point : result.points) {
-    plot.x.push_back(point.value);
     for (std::size_t m = 0; m < point.methods.size(); ++m) {
-      plot.curves[m].y.push_back(point.methods[m].of(figure.metric).mean);
+      plot.series[m].x.push_back(point.value);
+      plot.series[m].y.push_back(point.methods[m].of(figure.metric).mean);
     }
   }
-  return svg_of(plot);
+  return plot_document(plot);
 }
 
 std::vector<std::filesystem::path> write_study(const StudyResult& result,

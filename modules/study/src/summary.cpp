@@ -1,5 +1,5 @@
-#include "number_text.h"
-
+#include "oneac/base/number_text.h"
+#include "oneac/report/table.h"
 #include "oneac/study/claims.h"
 #include "oneac/study/readings.h"
 #include "oneac/study/report.h"
@@ -8,8 +8,6 @@
 
 namespace oneac {
 namespace {
-
-using internal::decimals;
 
 // Points of a sweep that the tables show: every so many.
 constexpr std::size_t kEveryNoise = 2, kEveryAngle = 2;
@@ -79,43 +77,36 @@ constexpr double kManyFailures = 0.001;
       "planar solver's rotation "
       "error cannot be less than the tilt itself: it loses at the tilt that equals the rival's "
       "error, which is much less for a 2AC that uses four correspondences than for one that uses "
-      "two.\n\n| reading |";
-  std::string rule = "|---|";
-  for (const Claim& claim : judge_claims(results.front())) {
-    text += " " + claim.id + " |";
-    rule += "---|";
-  }
-  text += "\n" + rule + "\n";
+      "two.\n\n";
+  Table table{"", {"reading"}, {}};
+  for (const Claim& claim : judge_claims(results.front())) table.head.push_back(claim.id);
+  table.text_columns = table.head.size();
   for (const StudyResult& result : results) {
-    text += "| " + std::string(meaning_of(result.options)) + " |";
-    for (const Claim& claim : judge_claims(result)) text += " " + verdict(claim) + " |";
-    text += "\n";
+    table.rows.push_back({{std::string(meaning_of(result.options))}});
+    for (const Claim& claim : judge_claims(result)) table.rows.back().push_back({verdict(claim)});
   }
-  return text;
+  return text + table_md(table);
 }
 
 /// "mean (median)" of the methods at some points of a sweep.
-[[nodiscard]] std::string table(const ExperimentResult& result, StudyMetric metric) {
+[[nodiscard]] std::string means_of(const ExperimentResult& result, StudyMetric metric) {
   const Experiment& experiment = *result.experiment;
-  std::string text = "| " + std::string(metric_name(metric)) + " error [°] at |";
+  Table table{"", {std::string(metric_name(metric)) + " error [°] at"}, {}};
   const std::size_t every = experiment.sweep == StudySweep::wall_angle ? kEveryAngle : kEveryNoise;
-  std::string rule = "|---|";
+  const int decimals = experiment.sweep == StudySweep::wall_angle ? 0 : 1;
   for (std::size_t i = 0; i < result.points.size(); i += every) {
-    text += " " +
-            decimals(result.points[i].value, experiment.sweep == StudySweep::wall_angle ? 0 : 1) +
-            " " + std::string(sweep_unit(experiment.sweep)) + " |";
-    rule += "---:|";
+    table.head.push_back(fixed_text(result.points[i].value, decimals) + " " +
+                         std::string(sweep_unit(experiment.sweep)));
   }
-  text += "\n" + rule + "\n";
   for (std::size_t m = 0; m < experiment.methods.size(); ++m) {
-    text += "| " + std::string(experiment.methods[m]->label) + " |";
+    table.rows.push_back({{std::string(experiment.methods[m]->label)}});
     for (std::size_t i = 0; i < result.points.size(); i += every) {
       const ErrorStatistics& errors = result.points[i].methods[m].of(metric);
-      text += " " + decimals(errors.mean, 2) + " (" + decimals(errors.median, 2) + ") |";
+      table.rows.back().push_back(
+          {fixed_text(errors.mean, 2) + " (" + fixed_text(errors.median, 2) + ")"});
     }
-    text += "\n";
   }
-  return text + "\n";
+  return table_md(table) + "\n";
 }
 
 [[nodiscard]] std::string failures(const ExperimentResult& result, std::size_t trials) {
@@ -128,7 +119,7 @@ constexpr double kManyFailures = 0.001;
     const double share = 1.0 - static_cast<double>(solved) / static_cast<double>(trials);
     if (share < kManyFailures) continue;
     text += (text.empty() ? "Without a result, at the worst point: " : ", ") +
-            std::string(result.experiment->methods[m]->label) + " " + decimals(100.0 * share, 1) +
+            std::string(result.experiment->methods[m]->label) + " " + fixed_text(100.0 * share, 1) +
             " %";
   }
   return text.empty() ? "" : text + ".\n\n";
@@ -141,7 +132,7 @@ constexpr double kManyFailures = 0.001;
   for (const Figure& figure : wanted_figures(result.options)) {
     if (figure.experiment != experiment.experiment->name) continue;
     text += "[(" + std::string(figure.id) + ")](" + figure.name() + ".svg) ";
-    tables += table(experiment, figure.metric);
+    tables += means_of(experiment, figure.metric);
   }
   return text + "mean (median)\n\n" + tables + failures(experiment, result.options.trials);
 }

@@ -2,12 +2,13 @@
 
 #include "tilt_step.h"
 
+#include "oneac/geometry/angles.h"
+
 #include <string>
 
 namespace oneac {
 namespace {
 
-constexpr double kDegree = 3.14159265358979323846 / 180.0;
 // [rad] 1σ of a vehicle against the horizon, over the minutes of a drive.
 constexpr double kLevelVehicle = 1.0 * kDegree;
 

@@ -1,20 +1,16 @@
 #include "oneac/frontend/map_formats.h"
 
-#include <array>
-#include <charconv>
+#include "oneac/base/number_text.h"
+
 #include <cstddef>
 #include <ostream>
 
 namespace oneac {
 namespace {
 
-/// The shortest text that reads back as the same number, whatever the locale.
 template <class Number>
 void append(std::string& text, Number value) {
-  std::array<char, 32> digits{};
-  const auto end = std::to_chars(digits.data(), digits.data() + digits.size(), value);
-  text += ' ';
-  text.append(digits.data(), end.ptr);
+  text += ' ' + exact_text(value);
 }
 
 template <class Number>

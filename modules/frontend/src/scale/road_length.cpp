@@ -1,11 +1,12 @@
 #include "road_length.h"
 
+#include "oneac/geometry/angles.h"
+
 #include <cmath>
 
 namespace oneac {
 namespace {
 
-constexpr double kDegree = 3.14159265358979323846 / 180.0;
 // [-] share of the inlier bound taken as 1σ of a point's position.
 constexpr double kSigmaOfThreshold = 0.5;
 

@@ -2,6 +2,7 @@
 
 #include "oneac/comparison/pair_record.h"
 #include "oneac/comparison/settings.h"
+#include "oneac/report/overlay.h"
 
 #include <cstddef>
 #include <string>
@@ -13,7 +14,7 @@ namespace oneac {
 struct PairOverlay {
   std::size_t pair = 0;    ///< index into ComparisonData::pairs
   std::size_t method = 0;  ///< whose inliers are drawn
-  std::string jpeg_base64;
+  Overlay picture;
 };
 
 /// The pairs where a method did worst: the largest rotation or direction error in units of what
@@ -24,7 +25,7 @@ struct PairOverlay {
 /// The method whose worst pairs are shown: "1ac_pooled" when it takes part, else the first.
 [[nodiscard]] std::size_t shown_method(const ComparisonData& data);
 
-/// Draws the motion of the correspondences over the second image: inliers and outliers apart.
+/// The correspondences of the worst pairs over the second image, inliers and outliers apart.
 /// The pairs are extracted and estimated once more. Logs that are not there give nothing.
 [[nodiscard]] std::vector<PairOverlay> draw_worst_pairs(const ComparisonData& data,
                                                         const CompareSettings& settings,

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "oneac/comparison/summary.h"
+#include "oneac/report/table.h"
 
 #include <string>
 #include <vector>
@@ -11,6 +12,8 @@ namespace oneac {
 // Only timings.csv, the columns ms_… of summary.csv and the rows "Time" of the tables depend on the
 // clock.
 
+/// The log's name, or its number where it is not known.
+[[nodiscard]] std::string name_of_log(const ComparisonData& data, std::size_t log);
 /// One row per pair × method × trial.
 [[nodiscard]] std::string pairs_csv(const ComparisonData& data);
 /// The same keys with the CPU time [ms].
@@ -30,6 +33,8 @@ struct TableBlock {
 
 /// The layout of Table 1 of Gal 2020: time, rotation error, then what this comparison adds.
 [[nodiscard]] std::vector<TableBlock> table_blocks(const std::vector<MethodSummary>& rows);
+/// What a method's row shows of a log.
+[[nodiscard]] Cell cell_of(const TableBlock& block, std::size_t method, std::size_t log);
 [[nodiscard]] std::string table_md(const std::vector<TableBlock>& blocks);
 [[nodiscard]] std::string table_tex(const std::vector<TableBlock>& blocks);
 

@@ -1,48 +1,12 @@
-#include "oneac/evaluation/html_page.h"
+#include "oneac/report/html_page.h"
+
+#include "page_style.h"
+#include "svg_canvas.h"
 
 #include <cstdint>
 
 namespace oneac {
 namespace {
-
-// Six colours of Okabe and Ito's kind, darker on white and lighter on black.
-constexpr const char* kStyle = R"css(
-:root{color-scheme:light dark;--bg:#ffffff;--fg:#1c1f23;--dim:#5b6470;--rule:#d9dde2;
---panel:#f4f6f8;--warn:#8a4b00;--warnbg:#fff4e0;
---c0:#0072b2;--c1:#d55e00;--c2:#00875f;--c3:#b0508a;--c4:#8a6d00;--c5:#555f6b}
-@media (prefers-color-scheme:dark){:root{--bg:#15181c;--fg:#e6e9ed;--dim:#9aa4b0;--rule:#343b44;
---panel:#1d2228;--warn:#ffcf8a;--warnbg:#33270f;
---c0:#5db4ee;--c1:#ff9248;--c2:#3fd0a4;--c3:#ee9dcb;--c4:#e3c64b;--c5:#c0c8d2}}
-*{box-sizing:border-box}
-body{margin:0 auto;max-width:1160px;padding:24px 20px 60px;background:var(--bg);color:var(--fg);
-font:15px/1.5 system-ui,-apple-system,"Segoe UI",Roboto,sans-serif;overflow-wrap:anywhere}
-h1{font-size:26px;margin:0 0 4px}h2{font-size:19px;margin:36px 0 10px}p{margin:6px 0;max-width:84ch}
-.dim{color:var(--dim)}
-.warning{color:var(--warn);background:var(--warnbg);padding:6px 10px;border-radius:4px}
-.tiles{display:flex;flex-wrap:wrap;gap:10px;margin:16px 0}
-.tiles div{background:var(--panel);border-radius:6px;padding:8px 14px}
-.tiles b{display:block;font-size:21px;font-variant-numeric:tabular-nums}
-.tiles span{color:var(--dim);font-size:13px}
-.figures,.group{display:grid;grid-template-columns:repeat(auto-fit,minmax(min(440px,100%),1fr));
-gap:14px;align-items:start}
-.group{grid-template-columns:repeat(auto-fit,minmax(min(300px,100%),1fr))}
-table{border-collapse:collapse;font-variant-numeric:tabular-nums;font-size:14px;width:100%}
-caption{text-align:left;font-weight:600;padding:4px 0}
-td{padding:3px 8px 3px 0;border-bottom:1px solid var(--rule);vertical-align:top}
-td+td{text-align:right;padding-right:0}
-svg.plot{width:100%;height:auto;font:12px system-ui,sans-serif}
-.figures svg:only-child{max-width:760px}
-svg text{fill:var(--dim)}svg .title{fill:var(--fg);font-weight:600;font-size:14px}
-.grid{stroke:var(--rule)}.axis{stroke:var(--dim)}
-.curve{fill:none;stroke-width:1.6;stroke-linejoin:round}
-.c0{stroke:var(--c0)}.c1{stroke:var(--c1)}.c2{stroke:var(--c2)}.c3{stroke:var(--c3)}
-.c4{stroke:var(--c4)}.c5{stroke:var(--c5)}
-.dot{stroke:none}.dot.c0{fill:var(--c0)}.dot.c1{fill:var(--c1)}.dot.c2{fill:var(--c2)}
-.dot.c3{fill:var(--c3)}.dot.c4{fill:var(--c4)}.dot.c5{fill:var(--c5)}
-figure{margin:0 0 18px;padding:0;max-width:960px}figcaption{margin-bottom:4px;font-size:14px}
-svg.snapshot{width:100%;height:auto;display:block;border-radius:4px}
-.inlier,.outlier{fill:none;stroke-width:1.3}.inlier{stroke:#4fc3ff}.outlier{stroke:#ff8c2e}
-)css";
 
 // The page loads nothing, not even when a text of the log tried to make it.
 constexpr const char* kPolicy =
@@ -118,11 +82,13 @@ void HtmlPage::tiles(const Rows& names_and_values) {
 }
 
 void HtmlPage::table(const std::string& caption, const Rows& names_and_values) {
-  body_ += "<table><caption>" + html_escaped(caption) + "</caption>\n";
-  for (const auto& [name, value] : names_and_values) {
-    body_ += "<tr><td>" + html_escaped(name) + "</td><td>" + html_escaped(value) + "</td></tr>\n";
-  }
-  body_ += "</table>\n";
+  Table table{caption, {}, {}};
+  for (const auto& [name, value] : names_and_values) table.rows.push_back({{name}, {value}});
+  body_ += table_html(table);
+}
+
+void HtmlPage::table(const Table& table) {
+  body_ += "<div class=\"scroll\">" + table_html(table) + "</div>\n";
 }
 
 void HtmlPage::figures(const std::vector<std::string>& svgs) {
@@ -133,6 +99,26 @@ void HtmlPage::figures(const std::vector<std::string>& svgs) {
 
 void HtmlPage::picture(const std::string& caption, const std::string& svg) {
   body_ += "<figure><figcaption>" + html_escaped(caption) + "</figcaption>\n" + svg + "</figure>\n";
+}
+
+void HtmlPage::legend(const std::vector<std::string>& labels) {
+  std::string boxes, rules;
+  for (std::size_t i = 0; i < labels.size(); ++i) {
+    const std::string number = std::to_string(i);
+    boxes += "<label><input type=\"checkbox\" checked id=\"show" + number +
+             "\"><svg viewBox=\"0 0 30 10\"><path class=\"curve " + internal::series_class(i) +
+             "\" d=\"M0 5H30\"/></svg>" + html_escaped(labels[i]) + "</label>\n";
+    rules += "body:has(#show" + number + ":not(:checked)) .plot .m" + number + "{display:none}\n";
+  }
+  body_ += "<style>" + rules + "</style><div class=\"legend\">\n" + boxes + "</div>\n";
+}
+
+void HtmlPage::begin_details(const std::string& summary) {
+  body_ += "<details><summary>" + html_escaped(summary) + "</summary>\n";
+}
+
+void HtmlPage::end_details() {
+  body_ += "</details>\n";
 }
 
 void HtmlPage::begin_group() {
@@ -147,7 +133,7 @@ std::string HtmlPage::text() const {
   return "<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\">\n" +
          std::string(kPolicy) +
          "<meta name=\"viewport\" content=\"width=device-width,initial-scale=1\">\n<title>" +
-         title_ + "</title>\n<style>" + kStyle + "</style></head><body>\n" + body_ +
+         title_ + "</title>\n<style>" + internal::page_style() + "</style></head><body>\n" + body_ +
          "</body></html>\n";
 }
 

@@ -1,10 +1,7 @@
-#include "oneac/evaluation/html_page.h"
-
-#include "oneac/evaluation/snapshot_svg.h"
+#include "oneac/report/html_page.h"
 
 #include <gtest/gtest.h>
 
-#include <limits>
 #include <string>
 
 namespace oneac {
@@ -42,34 +39,14 @@ TEST(Base64Of, AgreesWithTheExamplesOfTheStandard) {  // RFC 4648, section 10
   EXPECT_EQ(base64_of("\xff\xfe"), "//4=");
 }
 
-TEST(SnapshotSvg, DrawsInliersApartAndLeavesOutWhatIsNotFinite) {
-  Snapshot snapshot;
-  snapshot.width = 100;
-  snapshot.height = 50;
-  snapshot.jpeg = "foo";
-  AffineCorrespondence ac;
-  ac.x1 = {10.0, 20.0};
-  ac.x2 = {12.0, 21.0};
-  ac.A << 2.0, 0.0, 0.0, 1.0;
-  snapshot.acs = {ac, ac, ac};
-  snapshot.acs[1].x1 = {30.0, 40.0};
-  snapshot.acs[2].x2.x() = std::numeric_limits<double>::quiet_NaN();
-  snapshot.inlier = {true, false, true};
-  const std::string svg = snapshot_svg(snapshot);
-  // Eight pixels to each side, stretched twice to the right.
-  EXPECT_NE(svg.find("class=\"inlier\" d=\"M10.0 20.0L12.0 21.0M-4.0 13.0L28.0 13.0L28.0 29.0L-4.0 "
-                     "29.0Z\""),
-            std::string::npos)
-      << svg;
-  EXPECT_NE(svg.find("class=\"outlier\" d=\"M30.0 40.0L"), std::string::npos) << svg;
-  EXPECT_NE(svg.find("data:image/jpeg;base64,Zm9v"), std::string::npos) << svg;
-  EXPECT_EQ(svg.find("nan"), std::string::npos) << svg;
-}
-
-TEST(SnapshotSvg, RefusesFlagsThatDoNotFit) {
-  Snapshot snapshot;
-  snapshot.inlier = {true};
-  EXPECT_THROW((void)snapshot_svg(snapshot), std::invalid_argument);
+TEST(HtmlPage, LegendHidesCurvesWithoutAScript) {
+  HtmlPage page("t", "s");
+  page.legend({"a", "<b>"});
+  const std::string html = page.text();
+  EXPECT_NE(html.find("id=\"show1\""), std::string::npos);
+  EXPECT_NE(html.find("body:has(#show1:not(:checked)) .plot .m1{display:none}"), std::string::npos);
+  EXPECT_NE(html.find("&lt;b&gt;"), std::string::npos);
+  EXPECT_EQ(html.find("<script"), std::string::npos);
 }
 
 }  // namespace

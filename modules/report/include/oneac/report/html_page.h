@@ -1,5 +1,7 @@
 #pragma once
 
+#include "oneac/report/table.h"
+
 #include <string>
 #include <string_view>
 #include <utility>
@@ -29,12 +31,20 @@ class HtmlPage {
   void tiles(const Rows& names_and_values);
   /// A table of names and values under a caption.
   void table(const std::string& caption, const Rows& names_and_values);
+  /// A table as wide as it takes, which scrolls on a narrow screen.
+  void table(const Table& table);
   /// Figures beside each other where the window is wide enough.
   void figures(const std::vector<std::string>& svgs);
   void picture(const std::string& caption, const std::string& svg);
+  /// What tells the series of plots without a legend of their own apart: a label for each, with a
+  /// box that shows and hides it. @pre once on a page
+  void legend(const std::vector<std::string>& labels);
   /// Tables that follow stand beside each other until the group ends.
   void begin_group();
   void end_group();
+  /// What follows is folded away under a summary until the end.
+  void begin_details(const std::string& summary);
+  void end_details();
 
   [[nodiscard]] std::string text() const;
 
