@@ -68,14 +68,14 @@ void draw(mrpt::img::CImage& canvas, const AffineCorrespondence& ac) {
   for (std::size_t i = 0; i < corners.size(); ++i) line(corners[i], corners[(i + 1) % 4]);
 }
 
-mrpt::img::CImage picture_of(const GreyImage& image, const std::vector<AffineCorrespondence>& acs) {
+mrpt::img::CImage picture_of(const GreyImage& image, const TrackedPair& pair) {
   mrpt::img::CImage grey(static_cast<unsigned>(image.width()),
                          static_cast<unsigned>(image.height()), mrpt::img::CH_GRAY);
   for (int v = 0; v < image.height(); ++v) {
     std::copy_n(image.row(v), image.width(), grey.ptrLine<std::uint8_t>(static_cast<unsigned>(v)));
   }
   mrpt::img::CImage colour = grey.colorImage();
-  for (const AffineCorrespondence& ac : acs) draw(colour, ac);
+  for (const Correspondence& ac : pair.correspondences) draw(colour, ac);
   return colour;
 }
 
@@ -127,7 +127,7 @@ class RunGui::Impl {
       const double height = width * kWidth / kHeight * moment.image.height() / moment.image.width();
       scene->createViewport("image")->setViewportPosition(0.01, 0.99 - height, width, height);
     }
-    scene->getViewport("image")->setImageView(picture_of(moment.image, moment.pair.acs));
+    scene->getViewport("image")->setImageView(picture_of(moment.image, moment.pair));
     window_.unlockAccess3DScene();
     look_at(moment.record);
   }
