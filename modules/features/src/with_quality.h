@@ -8,6 +8,12 @@
 
 namespace oneac::internal {
 
+/// Rounded to single precision. Through memory: GCC 12 vectorises two such casts side by side away.
+[[nodiscard]] inline double in_single_precision(double value) {
+  const volatile float rounded = static_cast<float>(value);
+  return static_cast<double>(rounded);
+}
+
 /// A correspondence of a track with what its alignment tells of it. Sigmas and perspective are
 /// estimates good to a digit or two: they are rounded to single precision.
 [[nodiscard]] inline Correspondence with_quality(const AffineCorrespondence& ac,
@@ -16,8 +22,8 @@ namespace oneac::internal {
   Correspondence full;
   static_cast<AffineCorrespondence&>(full) = ac;
   full.track = track;
-  full.point_sigma = static_cast<double>(static_cast<float>(quality.point_sigma));
-  full.affine_sigma = static_cast<double>(static_cast<float>(quality.affine_sigma));
+  full.point_sigma = in_single_precision(quality.point_sigma);
+  full.affine_sigma = in_single_precision(quality.affine_sigma);
   full.perspective = quality.perspective.cast<float>().cast<double>();
   return full;
 }
