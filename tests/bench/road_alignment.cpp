@@ -2,15 +2,16 @@
 //
 //   oneac_bench_road_alignment IMAGES RUN --camera FX,CX,CY --height H [--suffix TEXT]
 //       [--poses KITTI | --truth LENGTH | --truth-list M0,M1,... --per N] [--mask-below ROW]
-//       [--predict SIGMA] [--max-length M] [--every K] [--verbose 1] [--draw PREFIX]
+//       [--offset N] [--predict SIGMA] [--max-length M] [--every K] [--verbose 1] [--draw PREFIX]
 //
 // IMAGES is a folder (pictures in the order of their names); RUN is a folder of `oneac run`, whose
 // relative_poses.csv gives rotation and direction and whose tilt.csv levels the camera.
 // --predict S predicts each length by the one measured last, to S metres; without it nothing is
 // predicted but --max-length.
 
-#include "oneac/base/thread_clock.h"
 #include "oneac/features/road_alignment.h"
+
+#include "oneac/base/thread_clock.h"
 #include "oneac/geometry/leveling.h"
 
 #include <Eigen/Geometry>
@@ -109,7 +110,8 @@ class Truth {
  public:
   explicit Truth(const Settings& s) : constant_(s.value("--truth", 0.0)) {
     per_ = static_cast<std::size_t>(s.value("--per", 20));
-    for (const std::string& word : split(s.text("--truth-list"), ',')) list_.push_back(std::stod(word));
+    for (const std::string& word : split(s.text("--truth-list"), ','))
+      list_.push_back(std::stod(word));
     std::ifstream in(s.text("--poses"));
     for (std::string line; std::getline(in, line);) {
       std::istringstream words(line);
@@ -121,7 +123,8 @@ class Truth {
   [[nodiscard]] std::optional<double> length(std::size_t i, std::size_t j) const {
     if (constant_ > 0.0) return constant_ * static_cast<double>(j - i);
     if (j < centres_.size()) return (centres_[j] - centres_[i]).norm();
-    if (i / per_ < list_.size()) return list_[i / per_] / static_cast<double>(per_) * static_cast<double>(j - i);
+    if (i / per_ < list_.size())
+      return list_[i / per_] / static_cast<double>(per_) * static_cast<double>(j - i);
     return std::nullopt;
   }
 
@@ -152,12 +155,13 @@ struct Tally {
     std::size_t pairs = 0;
     for (const auto& [name, count] : status) pairs += static_cast<std::size_t>(count);
     std::printf("pairs %zu measured %zu (%.1f %%)", pairs, lengths.size(),
-                100.0 * static_cast<double>(lengths.size()) / static_cast<double>(std::max<std::size_t>(pairs, 1)));
+                100.0 * static_cast<double>(lengths.size()) /
+                    static_cast<double>(std::max<std::size_t>(pairs, 1)));
     for (const auto& [name, count] : status) std::printf("  %s %d", name.c_str(), count);
     double sum = 0.0;
     for (const double length : lengths) sum += length;
-    std::printf("\nlength sum %.2f m median %.4f m, stated sigma median %.2f %%, median %.2f ms\n", sum,
-                median(lengths), 100.0 * median(sigmas), median(ms));
+    std::printf("\nlength sum %.2f m median %.4f m, stated sigma median %.2f %%, median %.2f ms\n",
+                sum, median(lengths), 100.0 * median(sigmas), median(ms));
     if (ratios.empty()) return;
     std::vector<double> off;
     for (const double ratio : ratios) off.push_back(std::abs(ratio - median(ratios)));
@@ -167,7 +171,8 @@ struct Tally {
       five += error > 5.0 ? 1U : 0U;
     }
     std::printf("ratio to truth: median %.4f, scatter (1.48 MAD) %.2f %%, 5..95 %% %.4f..%.4f\n",
-                median(ratios), 148.26 * median(off), quantile(ratios, 0.05), quantile(ratios, 0.95));
+                median(ratios), 148.26 * median(off), quantile(ratios, 0.05),
+                quantile(ratios, 0.95));
     std::printf("error over sigma: within 2: %.1f %%, above 5: %zu, largest %.1f\n",
                 100.0 * static_cast<double>(two) / static_cast<double>(errors.size()), five,
                 quantile(errors, 1.0));
@@ -189,8 +194,8 @@ Frame load(const std::string& file) {
 }
 
 /// The two images' difference after the second is warped onto the first by the road.
-void draw(const std::string& file, const Frame& first, const Frame& second, const PinholeCamera& camera,
-          const RoadAlignment& result) {
+void draw(const std::string& file, const Frame& first, const Frame& second,
+          const PinholeCamera& camera, const RoadAlignment& result) {
   cv::Mat out(camera.height, camera.width, CV_8UC1, cv::Scalar(128));
   const Eigen::Matrix3d H = result.T_2_1.R + result.T_2_1.t * result.normal.transpose();
   for (int v = 0; v < camera.height; ++v) {
@@ -204,7 +209,8 @@ void draw(const std::string& file, const Frame& first, const Frame& second, cons
       const long c = std::lround(w.x()), r = std::lround(w.y());
       if (c < 0 || r < 0 || c >= camera.width || r >= camera.height) continue;
       const int other = second.image.row(static_cast<int>(r))[c];
-      out.at<unsigned char>(v, u) = static_cast<unsigned char>(std::clamp(128 + 3 * (other - grey), 0, 255));
+      out.at<unsigned char>(v, u) =
+          static_cast<unsigned char>(std::clamp(128 + 3 * (other - grey), 0, 255));
     }
   }
   cv::imwrite(file, out);
@@ -213,12 +219,16 @@ void draw(const std::string& file, const Frame& first, const Frame& second, cons
 RoadStep step_of(const Row& pair, const Row& tilt, double height, const Settings& s) {
   RoadStep step;
   step.T_2_1.R = Eigen::Quaterniond(number(pair, "qw"), number(pair, "qx"), number(pair, "qy"),
-                                    number(pair, "qz")).normalized().toRotationMatrix();
+                                    number(pair, "qz"))
+                     .normalized()
+                     .toRotationMatrix();
   step.T_2_1.t = {number(pair, "tx"), number(pair, "ty"), number(pair, "tz")};
-  step.information = motion_information(s.value("--rotation-sigma", 0.0004), s.value("--direction-sigma", 0.01));
+  step.information =
+      motion_information(s.value("--rotation-sigma", 0.0004), s.value("--direction-sigma", 0.01));
   const double pitch = number(tilt, "pitch_up_deg") + number(tilt, "suspension_pitch_deg");
   step.R_level_cam = leveling_rotation({pitch * kDegree, number(tilt, "roll_right_deg") * kDegree});
-  step.pitch_sigma = kDegree * std::clamp(number(tilt, "suspension_sigma_deg"), s.value("--least-pitch-sigma", 0.1), 1.0);
+  step.pitch_sigma = kDegree * std::clamp(number(tilt, "suspension_sigma_deg"),
+                                          s.value("--least-pitch-sigma", 0.1), 1.0);
   step.roll_sigma = kDegree * std::clamp(number(tilt, "roll_sigma_deg"), 0.3, 1.5);
   step.max_length = s.value("--max-length", 3.0) / height;
   return step;
@@ -245,13 +255,16 @@ void run(const Settings& s) {
   std::map<std::size_t, Row> tilt_of;
   for (const Row& row : tilts) tilt_of[static_cast<std::size_t>(number(row, "index"))] = row;
   std::map<std::size_t, Frame> frames;
+  // Of the first image of the folder in the log.
+  const auto offset = static_cast<std::size_t>(s.value("--offset", 0));
   Tally tally;
   double last = 0.0;
   Eigen::Vector3d heading(0.0, 0.0, -1.0);
   for (const Row& pair : pairs) {
-    const auto i = static_cast<std::size_t>(number(pair, "index1"));
-    const auto j = static_cast<std::size_t>(number(pair, "index2"));
-    if (j >= files.size() || tilt_of.count(i) == 0) continue;
+    const auto index = static_cast<std::size_t>(number(pair, "index1"));
+    const std::size_t i = index - offset;
+    const std::size_t j = static_cast<std::size_t>(number(pair, "index2")) - offset;
+    if (index < offset || j >= files.size() || tilt_of.count(index) == 0) continue;
     frames.erase(frames.begin(), frames.lower_bound(i));
     for (const std::size_t k : {i, j}) {
       if (frames.count(k) == 0) frames[k] = load(files[k]);
@@ -263,7 +276,7 @@ void run(const Settings& s) {
     camera.fx = camera.fy = std::stod(intrinsics.at(0));
     camera.cx = std::stod(intrinsics.at(1));
     camera.cy = std::stod(intrinsics.at(2));
-    RoadStep step = step_of(pair, tilt_of[i], height, s);
+    RoadStep step = step_of(pair, tilt_of[index], height, s);
     if (step.T_2_1.t.norm() > 1e-9) {
       heading = step.T_2_1.t.normalized();
     } else {
@@ -278,7 +291,8 @@ void run(const Settings& s) {
     const int below = static_cast<int>(s.value("--mask-below", 0));
     if (below > 0) {
       mask = GreyImage(camera.width, camera.height, 255);
-      for (int v = below; v < camera.height; ++v) std::fill_n(mask.row(v), camera.width, std::uint8_t{0});
+      for (int v = below; v < camera.height; ++v)
+        std::fill_n(mask.row(v), camera.width, std::uint8_t{0});
     }
     const double before = thread_cpu_ms();
     const RoadAlignment result =
@@ -289,11 +303,15 @@ void run(const Settings& s) {
     const auto expected = truth.length(i, j);
     const bool measured = result.status == RoadStatus::kMeasured;
     if (s.value("--verbose", 0) > 0) {
-      std::printf("%4zu %4zu %-15s %.4f +- %.4f  truth %.4f  rho %.2f blocks %2d textured %2d rival %.2f at %.3f gain %.3f\n",
-                  i, j, to_string(result.status), metres, height * result.sigma, expected.value_or(0.0),
-                  result.correlation, result.blocks, result.textured, result.rival, height * result.rival_length, result.gain);
+      std::printf(
+          "%4zu %4zu %-15s %.4f +- %.4f  truth %.4f  rho %.2f blocks %2d textured %2d rival %.2f "
+          "at %.3f gain %.3f\n",
+          i, j, to_string(result.status), metres, height * result.sigma, expected.value_or(0.0),
+          result.correlation, result.blocks, result.textured, result.rival,
+          height * result.rival_length, result.gain);
     }
-    if (!s.text("--draw").empty() && i % 40 == 0) draw(s.text("--draw") + std::to_string(i) + ".png", first, second, camera, result);
+    if (!s.text("--draw").empty() && i % 40 == 0)
+      draw(s.text("--draw") + std::to_string(i) + ".png", first, second, camera, result);
     if (!measured) continue;
     last = result.length;
     tally.lengths.push_back(metres);

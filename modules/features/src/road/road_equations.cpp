@@ -174,10 +174,10 @@ void add_line(Line& line, double gain, double scale, Sums& sums) {
 }
 
 /// Eliminates the gain (Schur complement) and takes the statistics.
-BlockEquations finish(const Sums& sums, double noise_grey) {
+BlockEquations finish(const Sums& sums, double noise_grey, int stride) {
   BlockEquations block;
   block.samples = sums.samples;
-  if (sums.samples < kLeastOfBlock || !(sums.weights > 0.0)) return block;
+  if (sums.samples < kLeastOfBlock / stride || !(sums.weights > 0.0)) return block;
   const WideMatrix H = sums.H.selfadjointView<Eigen::Lower>();
   const double noise = noise_grey * noise_grey * sums.samples;
   const double hh = H(kUnknowns, kUnknowns) + noise;
@@ -220,7 +220,7 @@ RoadEquations road_equations(const RoadContext& context, const RoadGrid& grid,
       read_line(grid, values, derivative, first, line);
       if (line.count >= kLeastOfLine) add_line(line, gain, scale, sums);
     }
-    equations[block] = finish(sums, noise_grey);
+    equations[block] = finish(sums, noise_grey, stride);
   }
   return equations;
 }

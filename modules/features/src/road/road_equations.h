@@ -32,7 +32,7 @@ struct BlockEquations {
   double weights = 0.0;               ///< Σ w
   double gain = 1.0;                  ///< b over a
   double rho = 0.0;                   ///< correlation without what is the same along the road
-  double lag = 0.0;  ///< correlation of residuals of neighbours on a line
+  double lag = 0.0;                   ///< correlation of residuals of neighbours on a line
   int samples = 0;
 };
 using RoadEquations = std::array<BlockEquations, kBlocks>;

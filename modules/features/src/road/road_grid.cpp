@@ -44,7 +44,8 @@ RoadGrid make_road_grid(const RoadContext& context, const Eigen::Matrix3d& R_lev
   std::size_t usable = 0;
   for (int block = 0; block < kBlocks; ++block) {
     const int lane = block % kLanes, band = block / kLanes;
-    grid.distance[static_cast<std::size_t>(block)] = 1.0 / (high - (high - low) * (band + 0.5) / kBands);
+    grid.distance[static_cast<std::size_t>(block)] =
+        1.0 / (high - (high - low) * (band + 0.5) / kBands);
     for (int i = 0; i < kPerBlock; ++i) {
       const int column = i / kRows, row = i % kRows;
       const double across = (lane + (column + 0.5) / kColumns) / kLanes;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "../image_pyramid.h"
+
 #include "oneac/features/road_alignment.h"
 
 #include <Eigen/Core>
@@ -36,9 +37,9 @@ struct RoadContext {
 
 /// Samples of the road, block by block, line by line.
 struct RoadGrid {
-  std::vector<Eigen::Vector3d> rays;  ///< in a, kPerBlock per block
-  std::vector<Eigen::Vector2d> u;     ///< [px] in a
-  std::vector<char> usable;           ///< inside a and not masked
+  std::vector<Eigen::Vector3d> rays;       ///< in a, kPerBlock per block
+  std::vector<Eigen::Vector2d> u;          ///< [px] in a
+  std::vector<char> usable;                ///< inside a and not masked
   std::array<double, kBlocks> distance{};  ///< [heights] of a block's middle
   double nearest = 0.0;                    ///< [heights] of all of it
   double usable_share = 0.0;

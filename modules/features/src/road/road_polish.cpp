@@ -9,7 +9,9 @@
 namespace oneac::internal {
 namespace {
 
-constexpr int kSteps = 4;           // a level; most take two or three
+constexpr int kSteps = 4;  // a level; most take two or three
+// Lines along the road that are used: more of them see the same errors of road and camera.
+constexpr int kFineStride = 2, kCoarseStride = 4;
 constexpr double kConverged = 0.1;  // [σ] of a step along the length
 constexpr double kSettled = 0.5;    // [σ] of the last one: good enough, σ grows by a tenth
 constexpr double kCauchy = 2.0;     // [σ] a block's deviation that halves its weight ...
@@ -82,8 +84,7 @@ RoadVector solve_step(const RoadPrior& prior, double redundant, double uneven, R
   RoadMatrix H = RoadMatrix::Zero();
   RoadVector g = RoadVector::Zero();
   for (std::size_t i = 0; i < kBlocks; ++i) {
-    const double precision =
-        fit.weight[i] * precision_of(fit.equations[i], redundant, uneven);
+    const double precision = fit.weight[i] * precision_of(fit.equations[i], redundant, uneven);
     H += precision * fit.equations[i].H;
     g += precision * fit.equations[i].g;
   }
@@ -104,7 +105,7 @@ bool polish_level(const RoadContext& context, const RoadGrid& grid, std::size_t 
   double size = 0.0;
   for (int i = 0; i < kSteps; ++i) {
     fit.equations = road_equations(context, grid, values, level, fit.motion, prior.tangents,
-                                   fit.equations, noise, level == 0 ? 1 : 2);
+                                   fit.equations, noise, level == 0 ? kFineStride : kCoarseStride);
     const double redundant = redundancy(fit.equations);
     const double uneven = options.unevenness * std::max(fit.motion.length, 0.05);
     RoadVector step = solve_step(prior, redundant, uneven, fit);

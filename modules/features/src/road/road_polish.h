@@ -24,14 +24,14 @@ struct RoadFit {
   RoadEquations equations;
   std::array<double, kBlocks> weight{};     ///< [0, 1] agreement of a block
   std::array<double, kBlocks> deviation{};  ///< [σ] of its own length from that of all
-  int blocks = 0;          ///< that count and agree
-  double agreeing = 0.0;   ///< [-] share of the evidence of blocks that agree
-  double scatter = 1.0;    ///< [-] χ² per degree of freedom of the blocks' lengths, at least 1
+  int blocks = 0;                           ///< that count and agree
+  double agreeing = 0.0;                    ///< [-] share of the evidence of blocks that agree
+  double scatter = 1.0;  ///< [-] χ² per degree of freedom of the blocks' lengths, at least 1
 };
 
 /// Gauss-Newton from the coarsest given level to the finest one, blocks weighted by agreement.
-[[nodiscard]] RoadFit polish(const RoadContext& context, const RoadGrid& grid,
-                             std::size_t coarsest, const RoadPrior& prior, double length,
-                             double max_change, const RoadAlignmentOptions& options);
+[[nodiscard]] RoadFit polish(const RoadContext& context, const RoadGrid& grid, std::size_t coarsest,
+                             const RoadPrior& prior, double length, double max_change,
+                             const RoadAlignmentOptions& options);
 
 }  // namespace oneac::internal

@@ -13,7 +13,7 @@ constexpr double kMostRho = 0.9;
 // [-] of the samples of a line or a block, that must be seen to compare it.
 constexpr int kLeastOfLine = kRows / 2;
 constexpr int kLeastOfBlock = kPerBlock / 4;
-constexpr int kSearchStride = 2;  // half of the lines are enough to find the place
+constexpr int kSearchStride = 4;  // a quarter of the lines is enough to find the place
 
 /// Sums of pairs of grey values along a line; k counts its samples.
 struct LineMoments {
@@ -166,9 +166,8 @@ std::vector<RoadScore> search_lengths(const RoadContext& context, const RoadGrid
   for (std::size_t i = 0; i < scores.size(); ++i) {
     if (is_peak(scores, i)) peaks.push_back(scores[i]);
   }
-  std::stable_sort(peaks.begin(), peaks.end(), [](const RoadScore& a, const RoadScore& b) {
-    return a.evidence > b.evidence;
-  });
+  std::stable_sort(peaks.begin(), peaks.end(),
+                   [](const RoadScore& a, const RoadScore& b) { return a.evidence > b.evidence; });
   if (peaks.size() > most) peaks.resize(most);
   return peaks;
 }

@@ -9,8 +9,8 @@ namespace oneac::internal {
 
 /// What one length explains.
 struct RoadScore {
-  double length = 0.0;    ///< [heights]
-  double evidence = 0.0;  ///< Σ ½ n log 1/(1 − ρ²), n of independent samples
+  double length = 0.0;               ///< [heights]
+  double evidence = 0.0;             ///< Σ ½ n log 1/(1 − ρ²), n of independent samples
   std::array<float, kBlocks> rho{};  ///< per block [-]; 0 where there is nothing to compare
 };
 

@@ -18,19 +18,19 @@ struct ImagePyramid;
 /// How the road between two images is aligned. validate() throws std::invalid_argument naming
 /// field, value and bound.
 struct RoadAlignmentOptions {
-  double half_width = 2.0;  ///< [heights] of the strip looked at: a lane and its markings
-  double nearest = 2.5;     ///< [heights] nearer, a step is hundreds of pixels
-  double farthest = 12.0;   ///< [heights] farther, a pixel is half a height long
-  double search_sigmas = 3.0;   ///< [-] around the prediction
-  double min_correlation = 0.4; ///< [-] of a block, without what is the same all along the road
-  double max_rival = 0.8;  ///< [-] evidence of another length over that of the best: ambiguous
-  int min_blocks = 4;      ///< of 15, that agree on the length
+  double half_width = 2.0;       ///< [heights] of the strip looked at: a lane and its markings
+  double nearest = 2.5;          ///< [heights] nearer, a step is hundreds of pixels
+  double farthest = 12.0;        ///< [heights] farther, a pixel is half a height long
+  double search_sigmas = 3.0;    ///< [-] around the prediction
+  double min_correlation = 0.4;  ///< [-] of a block, without what is the same all along the road
+  double max_rival = 0.8;     ///< [-] evidence of another length over that of the best: ambiguous
+  int min_blocks = 4;         ///< of 15, that agree on the length
   double min_agreeing = 0.6;  ///< [-] share of the evidence of blocks that agree
   double noise_grey = 0.75;   ///< [grey levels] 1σ of a camera's pixel, smoothed
   double unevenness = 0.015;  ///< [-] 1σ of the length in one block: crown, ruts, bumps
-  double heave = 0.006;     ///< [heights] 1σ of the camera's rise in a step: 1 cm on the springs
-  double height_sigma = 0.006;  ///< [-] 1σ of the height itself, the same in all blocks
-  double min_rotation_sigma = 0.0003;   ///< [rad] what calibration and rolling shutter leave
+  double heave = 0.006;       ///< [heights] 1σ of the camera's rise in a step: 1 cm on the springs
+  double height_sigma = 0.012;         ///< [-] 1σ of the height itself, the same in all blocks
+  double min_rotation_sigma = 0.0003;  ///< [rad] what calibration and rolling shutter leave
   double min_direction_sigma = 0.005;  ///< [rad]
 
   void validate() const;
@@ -79,7 +79,7 @@ struct RoadStep {
   /// refine_two_view gives it.
   Eigen::Matrix<double, 6, 6> information = Eigen::Matrix<double, 6, 6>::Zero();
   Eigen::Matrix3d R_level_cam = Eigen::Matrix3d::Identity();  ///< of the first view, to the road
-  double pitch_sigma = 0.005;  ///< [rad] 1σ of that, springs and slope
+  double pitch_sigma = 0.006;  ///< [rad] 1σ of that, springs and slope; less is not believed
   double roll_sigma = 0.01;    ///< [rad]
   double length = 0.0;         ///< [heights] predicted
   double length_sigma = 1e3;   ///< [heights]
@@ -108,12 +108,13 @@ enum class RoadStatus {
 
 struct RoadAlignment {
   RoadStatus status = RoadStatus::kNoRoad;
-  double length = 0.0;          ///< [heights] |t|; 0 unless measured
+  double length = 0.0;          ///< [heights] along the direction given; 0 unless measured; when
+                                ///< standing negative by noise
   double sigma = 0.0;           ///< [heights] 1σ, everything included
   double relative_sigma = 0.0;  ///< [-] sigma / length; 0 for a length of 0
   RelativePose T_2_1;  ///< refined; t in camera heights; the pose given, |t| = 1, unless measured
   Eigen::Vector3d normal = Eigen::Vector3d::UnitY();  ///< of the road in the first view, refined
-  double correlation = 0.0;   ///< [-] mean over the agreeing blocks
+  double correlation = 0.0;                           ///< [-] mean over the agreeing blocks
   double rival = 0.0;         ///< [-] evidence of the second best length over that of the best
   double rival_length = 0.0;  ///< [heights] that length; 0: none
   double gain = 1.0;          ///< [-] second image over first, mean over the blocks
@@ -126,9 +127,9 @@ struct RoadAlignment {
 /// Model: road n·X = 1 in the first view; H = R + |t| t̂ nᵀ; grey values of a block of road are the
 /// same up to gain, and up to a bias per line along the road, so that lane lines and shadows that
 /// run along the road, which tell nothing, count nothing. Evidence of a length is the sum over 15
-/// blocks of ½ log 1/(1 − ρ²); its maximum is searched along |t|, then polished by Gauss-Newton over
-/// |t|, n, R and t̂ with what is given as prior. Blocks that contradict (cars, kerbs) lose their
-/// weight. See docs/decisions/road-alignment.md.
+/// blocks of ½ log 1/(1 − ρ²); its maximum is searched along |t|, then polished by Gauss-Newton
+/// over |t|, n, R and t̂ with what is given as prior. Blocks that contradict (cars, kerbs) lose
+/// their weight. See docs/decisions/road-alignment.md.
 /// @param mask  dark (< 128) where pixels are not used (bonnet); empty: all are
 /// @throws std::invalid_argument  images or mask of another size than the camera's, or a bad field
 /// @cost   2 to 3 ms at 1242×375; pure, thread-safe, deterministic
