@@ -80,7 +80,27 @@ const std::vector<Row>& rows() {
 /// Rows that fail today; each leaves the list with the change that mends it. All rows run with
 /// ONEAC_HARD_DRIVES=all in the environment.
 const std::vector<std::string> kNotYet = {
-    // KNOTYET
+    "Bonnet",
+    "FarScenery",
+    "DashesOnly",
+    "Roundabout",
+    "TruckAhead",
+    "BusWhileStanding",
+    "LeftCamera",
+    "UpsideDown",
+    // Not measured yet.
+    "ExposureJumps",
+    "RollingShutter",
+    "TruckAheadSwinging",
+    "TruckInAQueue",
+    "RightCamera",
+    "UpsideDownUntold",
+    "PortraitUntold",
+    "RearUntold",
+    "CalibrationOfFullSize",
+    "FocalLengthOfFivePixels",
+    "PrincipalPointSwapped",
+    "FocalLengthTenPercentLong",
 };
 
 constexpr double kLengthBound = 0.03;     // of the true way
@@ -211,7 +231,7 @@ std::vector<Row> rows_to_run() {
 }
 
 INSTANTIATE_TEST_SUITE_P(Catalogue, HardDrives, ::testing::ValuesIn(rows_to_run()),
-                         [](const auto& info) { return std::string(info.param.name); });
+                         [](const auto& row) { return std::string(row.param.name); });
 
 /// A name in kNotYet that is no row would hide nothing and look as if it did.
 TEST(HardDrivesList, NamesRowsOnly) {
