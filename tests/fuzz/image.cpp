@@ -1,8 +1,8 @@
 // The content of an image file: JPEG, PNG, whatever OpenCV takes for one.
 #include "fuzz.h"
-#include "oneac/observations/image_decoding.h"
 
 #include "oneac/base/error.h"
+#include "oneac/observations/image_decoding.h"
 
 ONEAC_FUZZ_TARGET(image) {
   try {

@@ -1,6 +1,6 @@
 // The GPS and IMU text files of the Málaga dataset.
 #include "fuzz.h"
-#include "malaga_text.h"
+#include "import/malaga_text.h"
 
 #include "oneac/base/error.h"
 

@@ -49,7 +49,7 @@ TEST_F(LiveDrive, GivesThePosesOfRunWithOpticalSensorPoses) {
   expect_same_as_run(optical);
   FrontEndOptions options;
   options.mount_convention = "optical";
-  expect_same_as_run(optical, options, {"--mount-convention", "optical"});
+  expect_same_as_run(optical, options, {"--set", "source.mount_convention=optical"});
 }
 
 TEST_F(LiveDrive, GivesThePosesOfRunLevelledByTheImuAndScaledByGps) {

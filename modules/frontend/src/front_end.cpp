@@ -134,10 +134,11 @@ std::optional<FrameResult> FrontEnd::feed(const mrpt::obs::CObservation::Ptr& ob
   return process(prepare(std::move(*intake.frame)));
 }
 
-// Other sensors are no fault; images and readings that are lost may be one.
+// Other sensors and readings are no fault; images and readings that are lost may be one.
 void FrontEnd::log_first(PassedOver reason) const {
   if (intake_.counts().of(reason) != 1) return;
-  const bool harmless = reason == PassedOver::kOtherClass || reason == PassedOver::kOtherSensor;
+  const bool harmless = reason == PassedOver::kOtherClass || reason == PassedOver::kOtherSensor ||
+                        reason == PassedOver::kNotNeeded;
   logFmt(harmless ? mrpt::system::LVL_DEBUG : mrpt::system::LVL_WARN,
          "an observation is passed over: %s", to_string(reason));
 }

@@ -54,7 +54,9 @@ const char* to_string(PassedOver reason) {
     case PassedOver::kUnstamped:
       return "a reading without time stamp";
     case PassedOver::kUnusable:
-      return "a reading without usable acceleration or speed";
+      return "a reading that is void or damaged";
+    case PassedOver::kNotNeeded:
+      return "a reading without acceleration or speed";
   }
   return "unknown";
 }
@@ -83,7 +85,8 @@ Intake ObservationIntake::take_inertial(const CObservation& observation) {
   if (!follows(imu_, observation.sensorLabel)) return pass(PassedOver::kOtherSensor);
   Intake intake;
   intake.inertial = imu_sample(observation);
-  if (!intake.inertial || !intake.inertial->acceleration) return pass(PassedOver::kUnusable);
+  if (!intake.inertial) return pass(PassedOver::kUnusable);
+  if (!intake.inertial->acceleration) return pass(PassedOver::kNotNeeded);
   imu_ = observation.sensorLabel;
   ++counts_.accelerations;
   return intake;
@@ -97,7 +100,7 @@ Intake ObservationIntake::take_speed(const CObservation& observation) {
   if (!reading) return pass(PassedOver::kUnusable);
   gps_ = observation.sensorLabel;
   const double time_s = epochs_.add(*reading).time_s;
-  if (!reading->speed) return pass(PassedOver::kUnusable);
+  if (!reading->speed) return pass(PassedOver::kNotNeeded);
   Intake intake;
   intake.speed = SpeedReading{time_s, *reading->speed};
   ++counts_.speeds;

@@ -70,10 +70,12 @@ TEST(ObservationIntake, CountsWhatItPassesOverByReason) {
   EXPECT_EQ(reason(mrpt::obs::CObservationComment()), PassedOver::kOtherClass);
   EXPECT_EQ(reason(*test::external_image("CAM", 2.0, "nowhere.png")), PassedOver::kMissing);
   EXPECT_EQ(reason(*test::stored_image("CAM", 0.5, test::ramp(0))), PassedOver::kOutOfOrder);
-  EXPECT_EQ(reason(*test::gga(0.0, 36.0, -4.0, 1.0)), PassedOver::kUnusable);
+  EXPECT_EQ(reason(*test::gga(0.0, 36.0, -4.0, 1.0)), PassedOver::kNotNeeded);
   mrpt::obs::CObservationIMU imu;
   imu.timestamp = INVALID_TIMESTAMP;
   EXPECT_EQ(reason(imu), PassedOver::kUnstamped);
+  imu.timestamp = mrpt::Clock::fromDouble(test::kStart);  // and no field is set
+  EXPECT_EQ(reason(imu), PassedOver::kUnusable);
   for (const std::size_t count : {0, 2, 4}) EXPECT_EQ(intake.counts().passed_over.at(count), 1U);
   // Missing ones and late ones count as images of the camera.
   EXPECT_EQ(frame_of(intake, *test::stored_image("CAM", 3.0, test::ramp(0))).index, 3U);

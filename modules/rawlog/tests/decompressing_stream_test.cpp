@@ -1,4 +1,4 @@
-#include "decompressing_stream.h"
+#include "read/decompressing_stream.h"
 
 #include "log_maker.h"
 

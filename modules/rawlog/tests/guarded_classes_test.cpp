@@ -1,7 +1,7 @@
 // What every class that MRPT knows does with counts that are not so, not only those in our logs.
-#include "decompressing_stream.h"
-#include "guarded_stream.h"
 #include "log_maker.h"
+#include "read/decompressing_stream.h"
+#include "read/guarded_stream.h"
 
 #include "oneac/test_support/peak_memory.h"
 #include "oneac/test_support/sanitized.h"

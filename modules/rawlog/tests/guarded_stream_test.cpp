@@ -1,9 +1,9 @@
-#include "guarded_stream.h"
+#include "read/guarded_stream.h"
+
+#include "log_maker.h"
+#include "read/log_reader.h"
 
 #include "oneac/observations/image_decoding.h"
-#include "log_maker.h"
-#include "log_reader.h"
-
 #include "oneac/rawlog/rawlog_source.h"
 #include "oneac/test_support/peak_memory.h"
 #include "oneac/test_support/temporary_folder.h"

@@ -1,4 +1,4 @@
-#include "log_layout.h"
+#include "read/log_layout.h"
 
 #include "log_maker.h"
 

@@ -1,4 +1,4 @@
-#include "reference_collector.h"
+#include "read/reference_collector.h"
 
 #include "log_maker.h"
 

@@ -19,9 +19,10 @@ enum class PassedOver {
   kMissing,      ///< an image without pixels, or whose file is not there
   kOutOfOrder,   ///< an image not later than the one before
   kUnstamped,    ///< a reading of IMU or GPS without time stamp
-  kUnusable,     ///< a reading without acceleration or speed: void, damaged, or of another kind
+  kUnusable,     ///< a reading of IMU or GPS that is void or damaged
+  kNotNeeded,    ///< a sound reading without acceleration or speed: rates or a position alone
 };
-inline constexpr std::size_t kReasons = 6;
+inline constexpr std::size_t kReasons = 7;
 /// "of another sensor": completes "observation passed over: it is …" or "has …".
 [[nodiscard]] const char* to_string(PassedOver reason);
 

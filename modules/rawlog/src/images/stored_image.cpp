@@ -1,0 +1,23 @@
+#include "images/stored_image.h"
+
+#include "oneac/observations/image_decoding.h"
+
+namespace oneac {
+
+std::string StoredImage::name(const std::string& name_in_log) const {
+  return file.empty() ? name_in_log : file.string();
+}
+
+GreyImage StoredImage::grey(const std::string& name_in_log) const {
+  return file.empty() ? decode_grey(*in_log, name_in_log) : decode_grey_file(file);
+}
+
+std::optional<StoredImage> stored_image(const LogView& view, ExternalImages& images) {
+  if (view.image->kind == LogImage::Kind::none) return std::nullopt;
+  if (view.image->kind != LogImage::Kind::external) return StoredImage{{}, view.image};
+  const auto file = images.find(view.image->file);
+  if (!file) return std::nullopt;
+  return StoredImage{*file, view.image};
+}
+
+}  // namespace oneac

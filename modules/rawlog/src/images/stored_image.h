@@ -1,0 +1,28 @@
+#pragma once
+
+#include "images/external_images.h"
+#include "images/log_image.h"
+#include "read/log_view.h"
+
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+
+namespace oneac {
+
+/// An image to be loaded: the file of an external one, or what the log holds.
+struct StoredImage {
+  std::filesystem::path file;
+  std::shared_ptr<const LogImage> in_log;
+
+  /// @param name_in_log  for messages about an image of the log
+  /// @throws InputError when it cannot be decoded
+  [[nodiscard]] GreyImage grey(const std::string& name_in_log) const;
+  [[nodiscard]] std::string name(const std::string& name_in_log) const;
+};
+
+/// Empty when the file is not there, or the log holds no pixels.
+[[nodiscard]] std::optional<StoredImage> stored_image(const LogView& view, ExternalImages& images);
+
+}  // namespace oneac

@@ -1,0 +1,163 @@
+#include "oneac/rawlog/import_kitti.h"
+
+#include "import/import_images.h"
+#include "import/number_table.h"
+
+#include "oneac/base/atomic_file.h"
+#include "oneac/base/error.h"
+#include "oneac/geometry/camera_frame.h"
+#include "oneac/rawlog/calibration.h"
+#include "oneac/rawlog/rawlog_writer.h"
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <fstream>
+#include <optional>
+#include <string>
+
+namespace oneac {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr double kRate_hz = 10.0;          // KITTI's, where times.txt is missing
+constexpr double kEpoch_s = 1317016800.0;  // 26 September 2011, when sequence 03 was recorded
+constexpr double kUnixTimes_s = 1e8;       // times.txt counts from 0; larger ones are Unix times
+constexpr std::size_t kPoseColumns = 12;   // rows of [R | t]
+constexpr std::array<const char*, 4> kImageFolders{"image_0", "image_l", "image_2", "images"};
+
+struct Sequence {
+  std::string label;
+  std::vector<fs::path> images;
+};
+
+Sequence find_images(const fs::path& source) {
+  require_source_folder(source);
+  for (const char* folder : kImageFolders) {
+    Sequence sequence{folder, list_images(source / folder)};
+    if (!sequence.images.empty()) return sequence;
+  }
+  throw InputError(source.string(),
+                   "no images (png, jpg) in image_0, image_l, image_2 or images in it",
+                   "give the folder of one sequence, such as sequences/03");
+}
+
+PinholeCamera find_calibration(const fs::path& source, const Sequence& sequence) {
+  const fs::path file = source / "calib.txt";
+  if (!fs::exists(file)) {
+    throw InputError(file.string(), "no such file",
+                     "put the sequence's calib.txt (with the line P0: ...) there");
+  }
+  const std::string section = sequence.label == "image_2" ? ":P2" : ":P0";
+  PinholeCamera camera = load_calibration(file.string() + section, "");
+  std::tie(camera.width, camera.height) = image_size(sequence.images.front());
+  return camera;
+}
+
+std::optional<std::size_t> number_of(const fs::path& image) {
+  const std::string stem = image.stem().string();
+  std::size_t number = 0;
+  const auto result = std::from_chars(stem.data(), stem.data() + stem.size(), number);
+  const bool all = result.ec == std::errc() && result.ptr == stem.data() + stem.size();
+  return all ? std::optional(number) : std::nullopt;
+}
+
+/// Row of a table that belongs to each image; empty when neither numbers nor order fit.
+std::vector<std::size_t> rows_of(const std::vector<fs::path>& images, std::size_t rows) {
+  std::vector<std::size_t> chosen;
+  for (const fs::path& image : images) {
+    const auto number = number_of(image);
+    if (number && *number < rows) chosen.push_back(*number);
+  }
+  if (chosen.size() == images.size()) return chosen;
+  chosen.clear();
+  if (images.size() != rows) return chosen;
+  for (std::size_t i = 0; i < rows; ++i) chosen.push_back(i);
+  return chosen;
+}
+
+std::string counts(std::size_t rows, std::size_t images) {
+  return std::to_string(rows) + " rows for " + std::to_string(images) + " images";
+}
+
+std::vector<double> find_times(const fs::path& source, const Sequence& sequence,
+                               ImportReport& report) {
+  const fs::path file = source / "times.txt";
+  std::vector<double> times;
+  if (!fs::exists(file)) {
+    report.notes.emplace_back("no times.txt: the images are stamped at 10 Hz");
+    for (std::size_t i = 0; i < sequence.images.size(); ++i) {
+      times.push_back(kEpoch_s + static_cast<double>(i) / kRate_hz);
+    }
+    return times;
+  }
+  const auto table = read_number_table(file, 1);
+  const auto rows = rows_of(sequence.images, table.size());
+  if (rows.empty()) {
+    throw InputError(file.string(), counts(table.size(), sequence.images.size()),
+                     "give the times.txt of this sequence, or take it away for 10 Hz");
+  }
+  const double epoch = table.front()[0] < kUnixTimes_s ? kEpoch_s : 0.0;
+  for (const std::size_t row : rows) {
+    times.push_back(epoch + table[row][0]);
+    if (times.size() < 2 || times.back() > times[times.size() - 2]) continue;
+    throw InputError(file.string() + ": row " + std::to_string(row + 1), "time does not increase",
+                     "give the times.txt of this sequence, or take it away for 10 Hz");
+  }
+  return times;
+}
+
+std::vector<std::string> lines_of(const fs::path& file) {
+  std::vector<std::string> lines;
+  std::ifstream stream(file);
+  for (std::string line; std::getline(stream, line);) {
+    if (!line.empty() && line.back() == '\r') line.pop_back();
+    if (!line.empty()) lines.push_back(line);
+  }
+  return lines;
+}
+
+void copy_poses(const fs::path& source, const Sequence& sequence, ImportReport& report) {
+  const fs::path file = source / "poses.txt";
+  if (!fs::exists(file)) return;
+  (void)read_number_table(file, kPoseColumns);  // a damaged reference is found here, not when used
+  const std::vector<std::string> lines = lines_of(file);
+  const auto rows = rows_of(sequence.images, lines.size());
+  if (rows.empty()) {
+    report.notes.push_back("poses.txt is left out: " +
+                           counts(lines.size(), sequence.images.size()));
+    return;
+  }
+  std::string text;
+  for (const std::size_t row : rows) text += lines[row] + '\n';
+  report.poses = report.log.parent_path() / (report.log.stem().string() + "_poses.txt");
+  write_file_atomically(report.poses, text);
+}
+
+}  // namespace
+
+ImportReport import_kitti(const KittiImport& options) {
+  const Sequence sequence = find_images(options.source);
+  ImportReport report;
+  report.log = options.log;
+  report.images = report.observations = sequence.images.size();
+  ImageRecord record;
+  record.label = sequence.label;
+  record.camera = find_calibration(options.source, sequence);
+  record.T_vehicle_cam = CameraFrame::forward_looking_mount();
+  record.T_vehicle_cam.translation().z() = options.camera_height_m;
+  const std::vector<double> times = find_times(options.source, sequence, report);
+  RawlogWriter log(options.log);
+  const ImageReferences references(options.log, options.copy_images);
+  for (std::size_t i = 0; i < times.size(); ++i) {
+    record.time_s = times[i];
+    record.file = references.refer_to(sequence.images[i]);
+    log.write(record);
+  }
+  copy_poses(options.source, sequence, report);
+  log.close();
+  return report;
+}
+
+}  // namespace oneac

@@ -1,0 +1,172 @@
+#include "read/calibration_file.h"
+
+#include "oneac/base/error.h"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <fstream>
+#include <optional>
+
+namespace oneac {
+namespace {
+
+constexpr const char* kSpaces = " \t\r\n";
+constexpr const char* kCameraKeys = "it needs resolution, cx, cy, fx, fy and dist";
+
+std::string trimmed(const std::string& text) {
+  const auto begin = text.find_first_not_of(kSpaces);
+  if (begin == std::string::npos) return "";
+  return text.substr(begin, text.find_last_not_of(kSpaces) - begin + 1);
+}
+
+// "//" and "#" open a comment anywhere, ';' only at the start: it separates the rows of a matrix.
+std::string without_comment(const std::string& line) {
+  const std::string text = trimmed(line.substr(0, std::min(line.find("//"), line.find('#'))));
+  return !text.empty() && text.front() == ';' ? "" : text;
+}
+
+std::optional<double> number(const std::string& word) {
+  const char* begin = word.data() + (word.front() == '+' ? 1 : 0);
+  const char* end = word.data() + word.size();
+  double value = 0.0;
+  const auto result = std::from_chars(begin, end, value);
+  if (result.ec != std::errc() || result.ptr != end || !std::isfinite(value)) return std::nullopt;
+  return value;
+}
+
+// Numbers of "[1 2; 3, 4]"; empty when something else is among them.
+std::vector<double> numbers(std::string text) {
+  std::replace_if(
+      text.begin(), text.end(), [](char c) { return c == '[' || c == ']' || c == ',' || c == ';'; },
+      ' ');
+  std::vector<double> values;
+  for (std::size_t at = text.find_first_not_of(kSpaces); at != std::string::npos;) {
+    const auto end = text.find_first_of(kSpaces, at);
+    const auto value = number(text.substr(at, end - at));
+    if (!value) return {};
+    values.push_back(*value);
+    at = text.find_first_not_of(kSpaces, end);
+  }
+  return values;
+}
+
+struct SectionReader {
+  const CalibrationFile& file;
+  const std::string& name;
+  const CalibrationSection& entries;
+
+  [[noreturn]] void fail(const std::string& fault) const {
+    throw InputError(file.path.string() + ": section [" + name + "]", fault, kCameraKeys);
+  }
+  [[nodiscard]] std::vector<double> list(const std::string& key) const {
+    const auto entry = entries.find(key);
+    if (entry == entries.end()) fail(key + " is missing");
+    auto values = numbers(entry->second);
+    if (values.empty()) fail(key + " = '" + entry->second + "' is not made of numbers");
+    return values;
+  }
+  [[nodiscard]] double scalar(const std::string& key) const {
+    const auto values = list(key);
+    if (values.size() != 1) fail(key + " is not one number");
+    return values.front();
+  }
+};
+
+void read_distortion(const SectionReader& reader, PinholeCamera& camera) {
+  const auto model = reader.entries.find("distortion");
+  const std::string name = model == reader.entries.end() ? "plumb_bob" : model->second;
+  if (name == "none") return;
+  if (name != "plumb_bob") {
+    throw InputError(reader.file.path.string() + ": section [" + reader.name + "]",
+                     "the lens model '" + name + "' is not supported",
+                     "rectify the images and give their calibration");
+  }
+  const auto k = reader.entries.count("dist") == 0 ? std::vector<double>{} : reader.list("dist");
+  const bool beyond =
+      std::any_of(k.begin() + std::min<std::ptrdiff_t>(static_cast<std::ptrdiff_t>(k.size()), 5),
+                  k.end(), [](double value) { return value != 0.0; });
+  if (beyond) reader.fail("dist has terms beyond k1 k2 p1 p2 k3");
+  std::copy_n(k.begin(), std::min(k.size(), camera.distortion.size()), camera.distortion.begin());
+}
+
+PinholeCamera parse_sections(const SectionReader& reader) {
+  PinholeCamera camera;
+  const auto size = reader.list("resolution");
+  constexpr double kLargestSide = 1e6;  // [px], so that the conversion below is defined
+  const bool sane = size.size() == 2 && size[0] >= 1 && size[1] >= 1 && size[0] < kLargestSide &&
+                    size[1] < kLargestSide;
+  if (!sane) reader.fail("resolution is not [width height]");
+  camera.width = static_cast<int>(size[0]);
+  camera.height = static_cast<int>(size[1]);
+  camera.fx = reader.scalar("fx");
+  camera.fy = reader.scalar("fy");
+  camera.cx = reader.scalar("cx");
+  camera.cy = reader.scalar("cy");
+  read_distortion(reader, camera);
+  return camera;
+}
+
+// P = K [I | t], row-major 3×4.
+PinholeCamera parse_kitti(const SectionReader& reader) {
+  const auto P = reader.list(kKittiKey);
+  if (P.size() != 12) reader.fail("it does not hold twelve numbers");
+  PinholeCamera camera;
+  camera.fx = P[0];
+  camera.cx = P[2];
+  camera.fy = P[5];
+  camera.cy = P[6];
+  return camera;
+}
+
+bool is_projection_name(const std::string& name) {
+  return !name.empty() && name.front() == 'P' && name.find_first_of(kSpaces) == std::string::npos;
+}
+
+}  // namespace
+
+CalibrationFile read_calibration_file(const std::filesystem::path& path) {
+  std::ifstream stream(path);
+  if (!stream)
+    throw InputError(path.string(), "the calibration cannot be opened", "check its name");
+  CalibrationFile file{path, {}};
+  std::string section;
+  for (std::string line; std::getline(stream, line);) {
+    const std::string text = without_comment(line);
+    if (text.empty()) continue;
+    if (text.front() == '[' && text.back() == ']') {
+      section = trimmed(text.substr(1, text.size() - 2));
+      file.sections[section];
+      continue;
+    }
+    const auto split = text.find_first_of("=:");
+    if (split == std::string::npos) continue;
+    const std::string key = trimmed(text.substr(0, split));
+    const std::string value = trimmed(text.substr(split + 1));
+    if (text[split] == '=') {
+      file.sections[section][key] = value;
+    } else if (is_projection_name(key)) {
+      file.sections[key][kKittiKey] = value;
+    }
+  }
+  return file;
+}
+
+std::vector<std::string> camera_sections(const CalibrationFile& file) {
+  std::vector<std::string> names;
+  for (const auto& [name, entries] : file.sections) {
+    const bool camera = entries.count("fx") != 0 || entries.count(kKittiKey) != 0;
+    if (camera && !name.empty()) names.push_back(name);
+  }
+  return names;
+}
+
+PinholeCamera parse_camera(const CalibrationFile& file, const std::string& section) {
+  const SectionReader reader{file, section, file.sections.at(section)};
+  const bool kitti = reader.entries.count(kKittiKey) != 0;
+  const PinholeCamera camera = kitti ? parse_kitti(reader) : parse_sections(reader);
+  if (camera.fx <= 0.0 || camera.fy <= 0.0) reader.fail("the focal length is not positive");
+  return camera;
+}
+
+}  // namespace oneac

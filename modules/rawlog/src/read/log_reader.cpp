@@ -1,0 +1,149 @@
+#include "read/log_reader.h"
+
+#include "read/decompressing_stream.h"
+#include "read/guarded_stream.h"
+#include "read/log_view.h"
+
+#include "oneac/mrpt_compat/observations.h"
+
+#include <mrpt/obs/CActionCollection.h>
+#include <mrpt/obs/CSensoryFrame.h>
+
+#include <algorithm>
+#include <cctype>
+#include <new>
+#include <stdexcept>
+#include <utility>
+
+namespace oneac {
+namespace {
+
+constexpr const char* kCopyAgain =
+    "what came before is used; copy the log again from where it came to have the rest";
+constexpr const char* kGarbage = "Exception while parsing";  // MRPT's words, without a reason
+constexpr const char* kNotARawlog = "give an MRPT .rawlog (plain, gzip or zstd)";
+
+// Whether MRPT complains of "class 'CName' which is not registered", rather than of garbage.
+bool is_unknown_class(const std::string& fault) {
+  const auto begin = fault.find('\'');
+  const auto end = fault.rfind('\'');
+  if (begin == end || fault.find("not registered") == std::string::npos) return false;
+  const auto first = fault.begin() + static_cast<std::ptrdiff_t>(begin) + 1;
+  const auto last = fault.begin() + static_cast<std::ptrdiff_t>(end);
+  return first != last && std::all_of(first, last, [](unsigned char c) {
+           return std::isalnum(c) != 0 || c == '_' || c == ':';
+         });
+}
+
+}  // namespace
+
+struct LogReader::Archive {
+  explicit Archive(const std::filesystem::path& log)
+      : stream(log), guarded(stream), archive(guarded) {}
+  DecompressingStream stream;
+  GuardedStream guarded;
+  mrpt::serialization::CArchiveStreamBase<mrpt::io::CStream> archive;
+};
+
+LogReader::LogReader(std::filesystem::path log)
+    : log_(std::move(log)), archive_(std::make_unique<Archive>(log_)) {
+  if (read_record()) return;
+  if (damage_) throw InputError(*damage_);
+  throw InputError(log_.string(), "holds no record", kNotARawlog);
+}
+
+LogReader::~LogReader() = default;
+
+std::optional<RawlogRecord> LogReader::next() {
+  while (ready_.empty()) {
+    if (!read_record()) return std::nullopt;
+  }
+  RawlogRecord record = std::move(ready_.front());
+  ready_.pop_front();
+  return record;
+}
+
+// One top-level record into ready_; false at the end. MRPT reports faults by exceptions of several
+// kinds, some with a call stack in their text: none of them leaves this function.
+bool LogReader::read_record() {
+  if (damage_) return false;
+  auto& stream = archive_->stream;
+  if (stream.at_end()) {
+    if (!stream.fault().empty()) set_damage(stream.fault());
+    return false;
+  }
+  std::string fault;
+  try {
+    archive_->guarded.begin_record();
+    const auto object = archive_->archive.ReadObject();
+    // MRPT takes the last field of a record without an end mark for whole.
+    if (stream.ran_out()) throw std::runtime_error("cut");
+    take(object);
+    ++records_;
+    return true;
+  } catch (const std::bad_alloc&) {
+    fault = "the record claims more memory than there is";
+  } catch (const std::length_error&) {
+    fault = "the record claims an absurd size";
+  } catch (const std::exception& error) {
+    fault = compat::message_of(error);
+    if (fault.rfind(kGarbage, 0) == 0) fault = "this is not an MRPT object";
+    if (stream.ran_out()) fault = "the file ends in the middle of a record";
+  }
+  set_damage(stream.fault().empty() ? fault : stream.fault());
+  return false;
+}
+
+void LogReader::take(const mrpt::serialization::CSerializable::Ptr& object) {
+  using mrpt::obs::CSensoryFrame;
+  if (!object) return;
+  const auto images = std::make_shared<const LogImages>(archive_->guarded.take_images());
+  if (auto observation = std::dynamic_pointer_cast<mrpt::obs::CObservation>(object)) {
+    check_cameras(*observation);
+    has_observations_ = true;
+    ready_.push_back({records_, std::move(observation), images});
+  } else if (const auto frame = std::dynamic_pointer_cast<CSensoryFrame>(object)) {
+    has_pairs_ = true;
+    for (const auto& part : *frame) {
+      if (part) check_cameras(*part);
+    }
+    for (const auto& part : *frame) {
+      if (part) ready_.push_back({records_, part, images});
+    }
+  } else if (std::dynamic_pointer_cast<mrpt::obs::CActionCollection>(object)) {
+    has_pairs_ = true;
+  } else if (records_ == 0) {
+    throw std::runtime_error("it begins with a " + compat::class_name(*object));
+  }  // other objects may be stored between observations: not ours
+}
+
+void LogReader::set_damage(const std::string& fault) {
+  if (is_unknown_class(fault)) {
+    damage_.emplace(log_.string() + ": record " + std::to_string(records_), fault,
+                    "remove the observations of this class from the log with rawlog-edit");
+    return;
+  }
+  if (records_ == 0) {
+    const bool damaged = !archive_->stream.fault().empty();
+    damage_.emplace(log_.string() + ": record 0", "not a readable rawlog (" + fault + ")",
+                    damaged ? "copy the log again from where it came" : kNotARawlog);
+    return;
+  }
+  const std::string where = log_.string() + ": record " + std::to_string(records_);
+  damage_.emplace(where, fault, kCopyAgain);
+}
+
+const std::string& LogReader::compression() const {
+  return archive_->stream.compression();
+}
+
+std::string LogReader::format() const {
+  if (has_pairs_) return has_observations_ ? "mixed" : "action/sensory-frame pairs";
+  return "observations";
+}
+
+double LogReader::progress() const {
+  return archive_->stream.progress();
+}
+
+}  // namespace oneac

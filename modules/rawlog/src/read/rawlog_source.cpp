@@ -1,0 +1,222 @@
+#include "oneac/rawlog/rawlog_source.h"
+
+#include "images/external_images.h"
+#include "images/stored_image.h"
+#include "read/camera_selection.h"
+#include "read/log_reader.h"
+#include "read/reference_collector.h"
+
+#include "oneac/base/error.h"
+#include "oneac/base/thread_clock.h"
+#include "oneac/mrpt_compat/observations.h"
+#include "oneac/observations/camera_reader.h"
+#include "oneac/rawlog/calibration.h"
+
+#include <utility>
+
+namespace oneac {
+namespace {
+
+constexpr double kReferenceTail = 2.0;  // [s] read past the last image: two epochs of a 1 Hz GPS
+
+/// What a ticket carries.
+struct Payload {
+  StoredImage image;
+  std::optional<StoredImage> right;
+  double baseline_m = 0.0;
+  Eigen::Isometry3d T_vehicle_cam;
+};
+
+/// The image of the camera and, of a pair, that of its right half.
+struct Sight {
+  LogView view;
+  std::optional<LogView> right;
+};
+
+}  // namespace
+
+void SourceOptions::validate() const {
+  if (every < 1) throw InputError("--every 0", "it must be at least 1", "use 1 for every image");
+  static_cast<void>(mount_from_sensor_pose(Eigen::Isometry3d::Identity(), mount_convention));
+}
+
+class RawlogSource::Impl {
+ public:
+  explicit Impl(const SourceOptions& options);
+
+  std::optional<FrameTicket> next();
+  [[nodiscard]] CameraFrame load(const FrameTicket& ticket) const;
+  void finish();
+  [[nodiscard]] const SourceReport& report() const { return report_; }
+  [[nodiscard]] double progress() const { return reader_.progress(); }
+
+ private:
+  [[nodiscard]] CameraReaderOptions reader_options() const;
+  [[nodiscard]] std::optional<Sight> take(const RawlogRecord& record);
+  [[nodiscard]] bool is_selected(std::size_t index) const;
+  [[nodiscard]] std::optional<FrameTicket> ticket_of(const Sight& sight,
+                                                     const RawlogRecord& record);
+  void add_right(const LogView& right, std::size_t record, Payload& payload);
+  [[nodiscard]] GreyImage decoded(const StoredImage& image, const std::string& ticket_name) const;
+  [[nodiscard]] std::string where(std::size_t record) const;
+  void complete_report();
+
+  SourceOptions options_;
+  ExternalImages images_;
+  CameraCandidate chosen_;
+  CameraReader camera_;
+  LogReader reader_;
+  ReferenceCollector collector_;
+  SourceReport report_;
+  std::size_t delivered_ = 0;
+  std::optional<double> last_time_;
+};
+
+RawlogSource::Impl::Impl(const SourceOptions& options)
+    : options_((options.validate(), options)),
+      images_(options.log, options.images_dir),
+      chosen_(choose_camera(options.log, options.camera, images_)),
+      camera_(chosen_, reader_options(), where(chosen_.first_record)),
+      reader_(options.log) {
+  report_.undistorted_by_log = camera_.undistorts() && options_.calibration.empty();
+}
+
+CameraReaderOptions RawlogSource::Impl::reader_options() const {
+  CameraReaderOptions options;
+  options.mount_convention = options_.mount_convention;
+  options.stereo = options_.stereo;
+  if (!options_.calibration.empty()) {
+    options.calibration = load_calibration(options_.calibration, chosen_.side_name);
+  }
+  return options;
+}
+
+std::string RawlogSource::Impl::where(std::size_t record) const {
+  return options_.log.string() + ": record " + std::to_string(record);
+}
+
+// Books the record; its view by the chosen camera, if it has one.
+std::optional<Sight> RawlogSource::Impl::take(const RawlogRecord& record) {
+  collector_.add(*record.observation);
+  std::optional<Sight> sight;
+  for (auto& view : log_views(record)) {
+    if (view.name() == chosen_.name) {
+      ++report_.images_in_log;
+      sight.emplace(Sight{view, std::nullopt});
+    } else if (sight && options_.stereo && view.side == CameraView::Side::right) {
+      sight->right = view;  // it comes behind the left one
+    }
+  }
+  return sight;
+}
+
+bool RawlogSource::Impl::is_selected(std::size_t index) const {
+  return index >= options_.first && (index - options_.first) % options_.every == 0;
+}
+
+std::optional<FrameTicket> RawlogSource::Impl::next() {
+  if (options_.count != 0 && delivered_ == options_.count) return std::nullopt;
+  while (const auto record = reader_.next()) {
+    const auto sight = take(*record);
+    if (!sight || !is_selected(report_.images_in_log - 1)) continue;
+    auto ticket = ticket_of(*sight, *record);
+    if (!ticket) continue;
+    ++delivered_;
+    last_time_ = ticket->time_s;
+    return ticket;
+  }
+  complete_report();
+  return std::nullopt;
+}
+
+void RawlogSource::Impl::add_right(const LogView& right, std::size_t record, Payload& payload) {
+  const double baseline = camera_.baseline(right, where(record));
+  payload.right = stored_image(right, images_);
+  payload.baseline_m = payload.right ? baseline : 0.0;
+}
+
+std::optional<FrameTicket> RawlogSource::Impl::ticket_of(const Sight& sight,
+                                                         const RawlogRecord& record) {
+  const LogView& view = sight.view;
+  camera_.check_calibration(view, where(record.number));
+  FrameTicket ticket;
+  ticket.index = report_.images_in_log - 1;
+  ticket.name = view.image->kind == LogImage::Kind::external
+                    ? std::filesystem::path(view.image->file).filename().string()
+                    : "record " + std::to_string(record.number);
+  auto image = stored_image(view, images_);
+  if (!image) {
+    if (report_.images_missing++ == 0) report_.first_missing = ticket.name;
+    return std::nullopt;
+  }
+  auto payload = std::make_shared<Payload>();
+  payload->image = std::move(*image);
+  if (sight.right) add_right(*sight.right, record.number, *payload);
+  ticket.time_s = CameraReader::time_of(record.observation->timestamp, where(record.number));
+  payload->T_vehicle_cam = camera_.mount(view);
+  ticket.payload = std::move(payload);
+  return ticket;
+}
+
+GreyImage RawlogSource::Impl::decoded(const StoredImage& image,
+                                      const std::string& ticket_name) const {
+  const std::string in_log = options_.log.string() + ": " + ticket_name;
+  return camera_.rectify(image.grey(in_log), image.name(in_log));
+}
+
+CameraFrame RawlogSource::Impl::load(const FrameTicket& ticket) const {
+  const auto& payload = *static_cast<const Payload*>(ticket.payload.get());
+  CameraFrame frame;
+  {
+    const StageTimer timer(frame.decode_ms);
+    frame.image = decoded(payload.image, ticket.name);
+    if (payload.right) frame.right = decoded(*payload.right, ticket.name + " (right)");
+  }
+  frame.baseline_m = payload.baseline_m;
+  frame.index = ticket.index;
+  frame.time_s = ticket.time_s;
+  frame.name = ticket.name;
+  frame.camera = camera_.rectified_camera(frame.image);
+  frame.T_vehicle_cam = payload.T_vehicle_cam;
+  return frame;
+}
+
+void RawlogSource::Impl::finish() {
+  while (last_time_) {
+    const auto record = reader_.next();
+    if (!record) break;
+    static_cast<void>(take(*record));
+    const auto time = record->observation->timestamp;
+    if (time != INVALID_TIMESTAMP && compat::unix_seconds(time) > *last_time_ + kReferenceTail)
+      break;
+  }
+  complete_report();
+}
+
+void RawlogSource::Impl::complete_report() {
+  if (reader_.damage()) report_.damage = reader_.damage()->what();
+  report_.reference = collector_.build();
+}
+
+RawlogSource::RawlogSource(const SourceOptions& options) : impl_(std::make_unique<Impl>(options)) {}
+RawlogSource::~RawlogSource() = default;
+RawlogSource::RawlogSource(RawlogSource&&) noexcept = default;
+RawlogSource& RawlogSource::operator=(RawlogSource&&) noexcept = default;
+
+std::optional<FrameTicket> RawlogSource::next() {
+  return impl_->next();
+}
+CameraFrame RawlogSource::load(const FrameTicket& ticket) const {
+  return impl_->load(ticket);
+}
+void RawlogSource::finish() {
+  impl_->finish();
+}
+const SourceReport& RawlogSource::report() const {
+  return impl_->report();
+}
+double RawlogSource::progress() const {
+  return impl_->progress();
+}
+
+}  // namespace oneac
