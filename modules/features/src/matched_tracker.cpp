@@ -41,7 +41,6 @@ bool MatchedTracker::usable(const AffineCorrespondence& ac) const {
 }
 
 std::uint64_t MatchedTracker::carry_on(const AffineCorrespondence& matched,
-                                       const AffineCorrespondence& aligned,
                                        const std::map<Place, std::uint64_t>& known) {
   const auto found = known.find({matched.x1.x(), matched.x1.y()});
   const std::uint64_t id = found != known.end() ? found->second : next_id_++;
@@ -70,7 +69,7 @@ TrackedPair MatchedTracker::advance(std::shared_ptr<const FrameFeatures> now, co
         aligned = {ac.x1, match->warp.centre, match->warp.M};
         quality = match->quality;
       }
-      const std::uint64_t track = carry_on(ac, aligned, known);
+      const std::uint64_t track = carry_on(ac, known);
       pair.correspondences.push_back(with_quality(aligned, track, quality));
     }
     pair.standing = median_shift(pair) < options_.klt.standing_px;

@@ -35,7 +35,6 @@ class MatchedTracker : public AcTracker {
   [[nodiscard]] bool usable(const AffineCorrespondence& ac) const;
   /// Number of the track that a match carries on or begins, as it was aligned.
   [[nodiscard]] std::uint64_t carry_on(const AffineCorrespondence& matched,
-                                       const AffineCorrespondence& aligned,
                                        const std::map<Place, std::uint64_t>& known);
 
   FeatureOptions options_;
