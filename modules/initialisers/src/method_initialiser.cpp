@@ -39,6 +39,7 @@ RobustResult gc_ransac_with_degeneracies(const InitialiserInput& input, MinimalM
     result.statistics = work;
     return result;
   }
+  result.motion = decision.evidence;
   settle_one_plane(input.acs, input.R_level_cam, threshold, result);
   return result;
 }

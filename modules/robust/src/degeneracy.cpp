@@ -145,8 +145,10 @@ MotionDecision resting_or_moving(AcSpan acs, const RelativePose& candidate,
   }
   const RotationFit fit = rest_rotation(acs, candidate.R, bounds.threshold);
   const MotionEvidence evidence = judged(acs, {fit.R, {candidate}}, bounds);
+  decision.evidence = evidence;
   if (evidence.model == MotionModel::kTranslation) {
-    decision.moving = evidence.pose;
+    // The sense of a candidate is settled after polishing, as it stands.
+    if (evidence.pose.R != candidate.R) decision.moving = evidence.pose;
     return decision;
   }
   decision.resting = at_rest(acs, evidence, bounds.threshold);

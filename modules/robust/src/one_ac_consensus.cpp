@@ -39,6 +39,7 @@ RobustResult consensus_of_finite(AcSpan acs, const Eigen::Matrix3d& R_level_cam,
     return result;
   }
   result.status = PoseStatus::kOk;
+  result.motion = decision.evidence;
   settle_one_plane(acs, R_level_cam, p.threshold, result);
   return result;
 }

@@ -25,8 +25,9 @@ struct DegeneracyBounds {
 
 /// Whether the camera stayed where it was.
 struct MotionDecision {
-  std::optional<RobustResult> resting;  ///< kNoMotion or kPureRotation, t = 0, with its evidence
-  RelativePose moving;                  ///< else the motion to go on with, |t| = 1
+  std::optional<RobustResult> resting;     ///< kNoMotion or kPureRotation, t = 0, with its evidence
+  RelativePose moving;                     ///< else the motion to go on with, |t| = 1
+  std::optional<MotionEvidence> evidence;  ///< of either, where it was looked into
 };
 
 /// Weighs a candidate, unit t of either sign, against a camera that stood, turned or rocked without

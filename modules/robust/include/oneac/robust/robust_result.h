@@ -49,8 +49,8 @@ struct RobustResult {
   /// Of (w, b): R = exp([w]×) R̂, t = t̂ + b with b ⊥ t̂ [rad²]; rank 5 when has_direction(status),
   /// of w alone when the camera turned on the spot, zero where not estimated.
   Eigen::Matrix<double, 6, 6> covariance = Eigen::Matrix<double, 6, 6>::Zero();
-  /// Of a camera at rest: how sure that is, and |t| as measured along the direction expected, with
-  /// its 1σ; zero is a measurement, too.
+  /// Where rest was a question: how sure the answer is, and |t| in camera heights as the road
+  /// measures it, with its 1σ; zero is a measurement, too.
   std::optional<MotionEvidence> motion;
   RobustStatistics statistics;
 };
