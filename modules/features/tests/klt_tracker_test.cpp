@@ -162,6 +162,24 @@ TEST(KltTracker, ReportsStandingAndKeepsTheTracks) {
   EXPECT_GT(kept, moving.size() * 8 / 10);
 }
 
+/// The upper three quarters of the first image over the lowest of the second.
+GreyImage far_and_near(const GreyImage& far, const GreyImage& near) {
+  GreyImage image = far;
+  for (int v = 3 * near.height() / 4; v < near.height(); ++v) {
+    std::copy_n(near.row(v), near.width(), image.row(v));
+  }
+  return image;
+}
+
+TEST(KltTracker, ARollingCarThatOnlyTheNearPartShowsDoesNotStand) {
+  const Texture texture(8);
+  const auto tracker = make_tracker(klt());
+  const GreyImage far = render(texture, shifted(0, 0));
+  feed(*tracker, far_and_near(far, far));
+  EXPECT_TRUE(feed(*tracker, far_and_near(far, render(texture, shifted(0.05, 0.0)))).standing);
+  EXPECT_FALSE(feed(*tracker, far_and_near(far, render(texture, shifted(0.8, 0.0)))).standing);
+}
+
 TEST(KltTracker, LetsCreepingAddUpInsteadOfLosingIt) {
   const Texture texture(7);
   const auto tracker = make_tracker(klt());

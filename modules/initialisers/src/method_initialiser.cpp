@@ -27,17 +27,22 @@ bool contains(const std::vector<std::string>& names, const std::string& name) {
 RobustResult gc_ransac_with_degeneracies(const InitialiserInput& input, const Solver& solver,
                                          const InitialiserOptions& options) {
   const double threshold = options.gc_ransac.threshold_px / input.focal_px;
-  const DegeneracyBounds bounds{threshold, options.consensus.standing_px / input.focal_px};
+  const DegeneracyBounds bounds{
+      threshold, options.consensus.standing_px / input.focal_px, input.R_level_cam, {}};
   if (!input.acs.empty()) {
     if (auto stood = standing(input.acs, bounds)) return *stood;
   }
   RobustResult result = gc_ransac(input.acs, input.R_level_cam, input.focal_px, solver, input.seed,
                                   options.gc_ransac);
   if (result.status != PoseStatus::kOk) return result;
-  if (auto turned = turning(input.acs, result.pose.R, bounds)) {
-    turned->statistics = result.statistics;
-    return *turned;
+  const MotionDecision decision = resting_or_moving(input.acs, result.pose, bounds);
+  if (decision.resting) {
+    const RobustStatistics work = result.statistics;
+    result = *decision.resting;
+    result.statistics = work;
+    return result;
   }
+  result.motion = decision.evidence;
   settle_one_plane(input.acs, input.R_level_cam, threshold, result);
   return result;
 }

@@ -15,27 +15,31 @@ namespace {
 
 /// The consensus of correspondences that are all finite.
 RobustResult consensus_of_finite(AcSpan acs, const Eigen::Matrix3d& R_level_cam, double focal_px,
-                                 const ConsensusOptions& options) {
+                                 const ConsensusOptions& options, const MotionPrior& prior) {
   RobustResult result;
   result.inliers.assign(acs.size(), false);
   if (acs.size() < static_cast<std::size_t>(options.min_inliers)) return result;
   const internal::ConsensusProblem p(acs, R_level_cam, options.threshold_px / focal_px, options);
-  const DegeneracyBounds bounds{p.threshold, options.standing_px / focal_px};
+  const DegeneracyBounds bounds{p.threshold, options.standing_px / focal_px, R_level_cam, prior};
   if (auto stood = standing(acs, bounds)) return *stood;
 
   const std::vector<internal::Candidate> modes = internal::ranked_modes(p, result.statistics);
   if (modes.empty()) return result;
-  if (auto turned = turning(acs, modes.front().pose.R, bounds)) {
-    turned->statistics = result.statistics;
-    return *turned;
+  const MotionDecision decision = resting_or_moving(acs, modes.front().pose, bounds);
+  if (decision.resting) {
+    const RobustStatistics work = result.statistics;
+    result = *decision.resting;
+    result.statistics = work;
+    return result;
   }
-  conclude(modes.front().pose, acs, p.threshold, result);
+  conclude(decision.moving, acs, p.threshold, result);
   if (result.inlier_count < static_cast<std::size_t>(options.min_inliers)) {
     result.pose = {};
     result.covariance.setZero();
     return result;
   }
   result.status = PoseStatus::kOk;
+  result.motion = decision.evidence;
   settle_one_plane(acs, R_level_cam, p.threshold, result);
   return result;
 }
@@ -67,15 +71,15 @@ void ConsensusOptions::validate() const {
 }
 
 RobustResult one_ac_consensus(AcSpan acs, const Eigen::Matrix3d& R_level_cam, double focal_px,
-                              const ConsensusOptions& options) {
+                              const ConsensusOptions& options, const MotionPrior& prior) {
   const auto is_finite = [](const AffineCorrespondence& ac) { return ac.is_finite(); };
   if (std::all_of(acs.begin(), acs.end(), is_finite)) {
-    return consensus_of_finite(acs, R_level_cam, focal_px, options);
+    return consensus_of_finite(acs, R_level_cam, focal_px, options, prior);
   }
   std::vector<AffineCorrespondence> finite;
   finite.reserve(acs.size());
   std::copy_if(acs.begin(), acs.end(), std::back_inserter(finite), is_finite);
-  RobustResult result = consensus_of_finite(finite, R_level_cam, focal_px, options);
+  RobustResult result = consensus_of_finite(finite, R_level_cam, focal_px, options, prior);
   std::vector<bool> inliers(acs.size(), false);
   for (std::size_t i = 0, k = 0; i < acs.size(); ++i) {
     if (acs[i].is_finite()) inliers[i] = result.inliers[k++];

@@ -21,8 +21,6 @@
 namespace oneac {
 namespace {
 
-/// Most of the points must be explained for the camera to have stood; the rest may be traffic.
-constexpr double kStandingShare = 0.8;
 // The rotation of a pose with a wrong translation is off by the parallax it explains away: looked
 // at more closely when its median shift is below so many bounds.
 constexpr double kWorthAFit = 6.0;
@@ -31,27 +29,72 @@ constexpr double kWorthAFit = 6.0;
 constexpr std::size_t kGlance = 64;
 constexpr double kClearlyAbove = 3.0;
 
-/// Result when R alone leaves the points within the bounds.
-std::optional<RobustResult> explained(AcSpan acs, const Eigen::Matrix3d& R,
-                                      const DegeneracyBounds& bounds) {
-  if (median_transfer_error(R, acs, kGlance) >= kClearlyAbove * bounds.standing_shift) {
-    return std::nullopt;
+// What stands below the horizon asks for a closer look: a fifth of so many points is more than the
+// vehicle ahead and drops on the glass give.
+constexpr double kStandingBelow = 0.2;
+constexpr std::size_t kFewestBelow = 8;
+constexpr double kBelow = 0.05;  // [rad] under the horizon, three degrees
+// The noise of a coordinate is a quarter of an inlier's bound: what trackers reach, with a reserve.
+constexpr double kBoundOverSigma = 4.0;
+
+/// Whether R alone may explain most points.
+bool is_nearly_explained(AcSpan acs, const Eigen::Matrix3d& R, double standing_shift) {
+  if (median_transfer_error(R, acs, kGlance) >= kClearlyAbove * standing_shift) return false;
+  return upper_median(rotation_transfer_errors(R, acs)) < standing_shift;
+}
+
+/// Whether more of the near points keep their place than a moving camera sees.
+bool stands_below(AcSpan acs, const DegeneracyBounds& bounds) {
+  const std::size_t step = std::max<std::size_t>(1, acs.size() / (4 * kGlance));
+  std::size_t below = 0;
+  std::size_t standing = 0;
+  for (std::size_t i = 0; i < acs.size(); i += step) {
+    if (bounds.R_level_cam.row(1).dot(acs[i].x1.homogeneous()) < kBelow) continue;
+    ++below;
+    if ((acs[i].x2 - acs[i].x1).squaredNorm() < bounds.threshold * bounds.threshold) ++standing;
   }
-  const std::vector<double> errors = rotation_transfer_errors(R, acs);
-  if (upper_median(errors) >= bounds.standing_shift) return std::nullopt;
+  return below >= kFewestBelow &&
+         static_cast<double>(standing) > kStandingBelow * static_cast<double>(below);
+}
+
+/// The answer of a camera that stayed in its place.
+RobustResult at_rest(AcSpan acs, const MotionEvidence& evidence, double threshold) {
   RobustResult result;
-  result.pose.R = R;
-  result.inliers.reserve(errors.size());
-  for (double error : errors) result.inliers.push_back(error <= bounds.threshold);
-  result.inlier_count =
-      static_cast<std::size_t>(std::count(result.inliers.begin(), result.inliers.end(), true));
-  const double needed = kStandingShare * static_cast<double>(acs.size());
-  if (static_cast<double>(result.inlier_count) < needed) return std::nullopt;
-  for (double error : errors) {
-    const double ratio = error / bounds.threshold;
+  result.status =
+      evidence.model == MotionModel::kStill ? PoseStatus::kNoMotion : PoseStatus::kPureRotation;
+  result.pose.R = evidence.pose.R;
+  result.motion = evidence;
+  result.inliers.reserve(acs.size());
+  for (const double error : rotation_transfer_errors(result.pose.R, acs)) {
+    const double ratio = error / threshold;
+    result.inliers.push_back(ratio <= 1.0);
+    result.inlier_count += ratio <= 1.0 ? 1 : 0;
     result.cost += std::min(1.0, ratio * ratio);
   }
   return result;
+}
+
+MotionEvidence judged(AcSpan acs, const MotionHypotheses& hypotheses,
+                      const DegeneracyBounds& bounds) {
+  MotionEvidenceOptions options;
+  options.sigma = bounds.threshold / kBoundOverSigma;
+  return judge_motion(acs, {}, hypotheses, bounds.R_level_cam, bounds.prior, options);
+}
+
+double cost_of(AcSpan acs, const Eigen::Matrix3d& R, double threshold) {
+  double cost = 0.0;
+  for (const double error : rotation_transfer_errors(R, acs)) {
+    cost += std::min(1.0, error * error / (threshold * threshold));
+  }
+  return cost;
+}
+
+/// The rotation that explains more: near that of a motion, or near none.
+RotationFit rest_rotation(AcSpan acs, const Eigen::Matrix3d& R_start, double threshold) {
+  const RotationFit near_pose = refine_rotation(R_start, acs, threshold);
+  const RotationFit near_none = refine_rotation(Eigen::Matrix3d::Identity(), acs, threshold);
+  return cost_of(acs, near_pose.R, threshold) < cost_of(acs, near_none.R, threshold) ? near_pose
+                                                                                     : near_none;
 }
 
 // Inliers that vote on the sign of t; each is right unless it is far away, and then undecided.
@@ -79,22 +122,35 @@ double distance_from_planar(const RelativePose& pose, const Eigen::Matrix3d& R_l
 }  // namespace
 
 std::optional<RobustResult> standing(AcSpan acs, const DegeneracyBounds& bounds) {
-  auto result = explained(acs, Eigen::Matrix3d::Identity(), bounds);
-  if (result) result->status = PoseStatus::kNoMotion;
-  return result;
-}
-
-std::optional<RobustResult> turning(AcSpan acs, const Eigen::Matrix3d& R_start,
-                                    const DegeneracyBounds& bounds) {
-  if (median_transfer_error(R_start, acs, kGlance) >= kWorthAFit * bounds.standing_shift) {
+  if (!is_nearly_explained(acs, Eigen::Matrix3d::Identity(), bounds.standing_shift)) {
     return std::nullopt;
   }
-  const RotationFit fit = refine_rotation(R_start, acs, bounds.threshold);
-  auto result = explained(acs, fit.R, bounds);
-  if (!result) return std::nullopt;
-  result->status = PoseStatus::kPureRotation;
-  result->covariance.topLeftCorner<3, 3>() = fit.covariance;
-  return result;
+  const MotionEvidence evidence = judged(acs, {}, bounds);
+  if (evidence.model != MotionModel::kStill) return std::nullopt;
+  return at_rest(acs, evidence, bounds.threshold);
+}
+
+MotionDecision resting_or_moving(AcSpan acs, const RelativePose& candidate,
+                                 const DegeneracyBounds& bounds) {
+  MotionDecision decision;
+  decision.moving = candidate;
+  if (median_transfer_error(candidate.R, acs, kGlance) >= kWorthAFit * bounds.standing_shift &&
+      !stands_below(acs, bounds)) {
+    return decision;
+  }
+  const RotationFit fit = rest_rotation(acs, candidate.R, bounds.threshold);
+  const MotionEvidence evidence = judged(acs, {fit.R, {candidate}}, bounds);
+  decision.evidence = evidence;
+  if (evidence.model == MotionModel::kTranslation) {
+    // The sense of a candidate is settled after polishing, as it stands.
+    if (evidence.pose.R != candidate.R) decision.moving = evidence.pose;
+    return decision;
+  }
+  decision.resting = at_rest(acs, evidence, bounds.threshold);
+  if (evidence.model == MotionModel::kRotation) {
+    decision.resting->covariance.topLeftCorner<3, 3>() = fit.covariance;
+  }
+  return decision;
 }
 
 void conclude(const RelativePose& candidate, AcSpan acs, double threshold, RobustResult& result) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "oneac/robust/motion_evidence.h"
 #include "oneac/robust/robust_result.h"
 #include "oneac/solvers/span.h"
 
@@ -9,21 +10,32 @@
 
 namespace oneac {
 
-/// Bounds of the tests, in normalised image units.
+/// What the tests go by; lengths in normalised image units.
 struct DegeneracyBounds {
   double threshold;       ///< of an inlier
   double standing_shift;  ///< median shift beside a rotation that is noise
+  Eigen::Matrix3d R_level_cam = Eigen::Matrix3d::Identity();  ///< removes the camera's tilt
+  MotionPrior prior;                                          ///< what is known beforehand
 };
 
-/// The answer of a camera that stood, R = I (kNoMotion). Empty when the points moved.
+/// The answer of a camera that stood, R = I (kNoMotion), where hardly anything moved and what did
+/// is no evidence of a translation (motion_evidence.h). Empty otherwise.
 /// @pre acs is not empty and finite
 [[nodiscard]] std::optional<RobustResult> standing(AcSpan acs, const DegeneracyBounds& bounds);
 
-/// The answer of a camera that turned or rocked without travelling, t = 0 (kPureRotation), found
-/// from a rotation near the true one. Empty when a rotation does not explain the points.
+/// Whether the camera stayed where it was.
+struct MotionDecision {
+  std::optional<RobustResult> resting;     ///< kNoMotion or kPureRotation, t = 0, with its evidence
+  RelativePose moving;                     ///< else the motion to go on with, |t| = 1
+  std::optional<MotionEvidence> evidence;  ///< of either, where it was looked into
+};
+
+/// Weighs a candidate, unit t of either sign, against a camera that stood, turned or rocked without
+/// travelling. Looked into only where a rotation comes near to explaining the points, or many near
+/// ones keep their place.
 /// @pre acs is not empty and finite
-[[nodiscard]] std::optional<RobustResult> turning(AcSpan acs, const Eigen::Matrix3d& R_start,
-                                                  const DegeneracyBounds& bounds);
+[[nodiscard]] MotionDecision resting_or_moving(AcSpan acs, const RelativePose& candidate,
+                                               const DegeneracyBounds& bounds);
 
 /// Completes a candidate, unit t of either sign: polished in double precision, inliers, cost, sign
 /// by cheirality, covariance. Status and statistics are left as they are.

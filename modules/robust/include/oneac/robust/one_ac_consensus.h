@@ -72,7 +72,10 @@ void describe(Visitor&& visit, ConsensusOptions& o) {
 /// @param acs          normalised correspondences of the (tilted) camera
 /// @param R_level_cam  removes the camera's tilt (geometry/leveling.h), the same in both views
 /// @param focal_px     what turns threshold_px into normalised units [px]
+/// @param prior        what inertia and sensors say of the motion, part of the choice between rest
+///                     and travel (motion_evidence.h)
 [[nodiscard]] RobustResult one_ac_consensus(AcSpan acs, const Eigen::Matrix3d& R_level_cam,
-                                            double focal_px, const ConsensusOptions& options);
+                                            double focal_px, const ConsensusOptions& options,
+                                            const MotionPrior& prior = {});
 
 }  // namespace oneac

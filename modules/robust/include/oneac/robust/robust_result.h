@@ -1,10 +1,12 @@
 #pragma once
 
 #include "oneac/geometry/relative_pose.h"
+#include "oneac/robust/motion_evidence.h"
 
 #include <Eigen/Core>
 
 #include <cstddef>
+#include <optional>
 #include <vector>
 
 namespace oneac {
@@ -47,6 +49,9 @@ struct RobustResult {
   /// Of (w, b): R = exp([w]×) R̂, t = t̂ + b with b ⊥ t̂ [rad²]; rank 5 when has_direction(status),
   /// of w alone when the camera turned on the spot, zero where not estimated.
   Eigen::Matrix<double, 6, 6> covariance = Eigen::Matrix<double, 6, 6>::Zero();
+  /// Where rest was a question: how sure the answer is, and |t| in camera heights as the road
+  /// measures it, with its 1σ; zero is a measurement, too.
+  std::optional<MotionEvidence> motion;
   RobustStatistics statistics;
 };
 
