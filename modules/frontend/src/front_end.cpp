@@ -79,14 +79,17 @@ FrameResult FrontEnd::process(PreparedFrame prepared) {
   const CameraFrame& frame = prepared.frame;
   double features_ms = prepared.features_ms;
   TrackedPair pair;
+  RoadPair road;
   {
     const StageTimer timer(features_ms);
+    road = {previous_road_, road_image(prepared.features, frame.image.view()), frame.camera, {}};
     correspondences_ = tracker_->advance(std::move(prepared.features), hint());
     if (options_.scale.source == "stereo")
       correspondences_ = with_stereo_depths(std::move(correspondences_), frame);
     pair = normalised(correspondences_, previous_camera_, frame);
   }
   previous_camera_ = frame.camera;
+  previous_road_ = road.second;
   prepared.frame.image = {};
   prepared.frame.right = {};
   if (!started_) {
@@ -95,7 +98,7 @@ FrameResult FrontEnd::process(PreparedFrame prepared) {
     trajectory_.add(first);
     return first;
   }
-  FrameResult result = odometry_->advance(frame, std::move(pair));
+  FrameResult result = odometry_->advance(frame, std::move(pair), road);
   result.step->features_ms = features_ms;
   constexpr double kMillisecond = 1e-3;
   profiler_.registerUserMeasure("features", features_ms * kMillisecond, true);

@@ -34,6 +34,9 @@ void ScaleOptions::validate() const {
   require(road_uncertainty >= 0.0, "scale.road_uncertainty", road_uncertainty, "at least 0");
   require(max_uncertainty > 0.0, "scale.max_uncertainty", max_uncertainty, "positive");
   require(outlier_sigmas > 0.0, "scale.outlier_sigmas", outlier_sigmas, "positive");
+  require(acceleration > 0.0, "scale.acceleration", acceleration, "positive");
+  require(max_acceleration >= acceleration, "scale.max_acceleration", max_acceleration,
+          "at least scale.acceleration");
 }
 
 void FrontEndOptions::validate() const {

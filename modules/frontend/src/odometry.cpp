@@ -2,10 +2,14 @@
 
 #include "oneac/base/thread_clock.h"
 
+#include <cmath>
 #include <utility>
 
 namespace oneac {
 namespace {
+
+// [rad] 1σ of the direction of travel against that of the step before: springs and steering.
+constexpr double kHeadingSigma = 0.05;
 
 FrameStamp stamp_of(const CameraFrame& frame) {
   return {frame.index, frame.time_s};
@@ -31,6 +35,29 @@ StepResult step_result(const FrameStamp& before, const FrameStamp& now, const Tw
   step.landmarks = length.landmarks;
   step.segment = segment;
   return step;
+}
+
+StepInTime step_in_time(const FrameStamp& before, const FrameStamp& now, const TwoView& seen,
+                        const RelativePose& last_motion) {
+  StepInTime step;
+  step.status = seen.status;
+  step.begin_s = before.time_s;
+  step.end_s = now.time_s;
+  step.expected = last_motion;
+  step.near_identical = seen.pair.standing;
+  if (seen.motion && std::isfinite(seen.motion->length_sigma)) {
+    step.evidence = RoadTravel{std::abs(seen.motion->length), seen.motion->length_sigma};
+  }
+  return step;
+}
+
+/// A step that looked like a rest, but was none: the road moved, or inertia does not allow it.
+TwoView as_it_moved(TwoView seen, const StepLength& length, const Eigen::Vector3d& heading) {
+  if (seen.status != StepStatus::kNoMotion || !(length.length > 0.0)) return seen;
+  seen.status =
+      length.source == LengthSource::kRoadImage ? StepStatus::kOk : StepStatus::kPredicted;
+  seen.pose.t = heading;
+  return seen;
 }
 
 /// The motion with its length as used, whether metres or not.
@@ -75,28 +102,33 @@ FrameResult Odometry::start(const CameraFrame& frame) {
   return frame_result(newest_, map_.start(newest_, frame.camera.focal_px()), attitude_);
 }
 
-FrameResult Odometry::advance(const CameraFrame& frame, TrackedPair pair) {
-  const TwoView seen = two_view_.estimate(
-      std::move(pair),
-      {attitude_.now().R_level_cam, last_motion_, frame.camera.focal_px(), map_.frames()});
+FrameResult Odometry::advance(const CameraFrame& frame, TrackedPair pair, const RoadPair& road) {
+  TwoView seen = two_view_.estimate(
+      std::move(pair), {attitude_.now().R_level_cam, last_motion_, frame.camera.focal_px(),
+                        map_.frames(), motion_prior(frame.time_s)});
+  const double estimate_ms = seen.estimate_ms, refine_ms = seen.refine_ms;
   double map_ms = 0.0;
   FrameResult result;
   {
     const StageTimer timer(map_ms);
-    result = integrate(stamp_of(frame), seen);
+    result = integrate(stamp_of(frame), std::move(seen), road);
   }
-  result.step->estimate_ms = seen.estimate_ms;
-  result.step->refine_ms = seen.refine_ms + map_ms;
+  result.step->estimate_ms = estimate_ms;
+  result.step->refine_ms = refine_ms + map_ms;
   return result;
 }
 
-FrameResult Odometry::integrate(const FrameStamp& now, const TwoView& seen) {
+FrameResult Odometry::integrate(const FrameStamp& now, TwoView seen, const RoadPair& road) {
   const FrameStamp before = std::exchange(newest_, now);
   const MapLink link = map_.link(seen);
   if (link.began_anew) scale_.restart(before.time_s);
+  StepInTime in_time = step_in_time(before, now, seen, last_motion_);
+  in_time.road = scale_.along_road(road, seen, link.carried, attitude_.now(), heading(), in_time);
   const auto told = scale_.measure(seen, link.carried, attitude_.now());
-  const StepLength length =
-      scale_.length_of({seen.status, before.time_s, now.time_s, last_motion_}, told);
+  const StepLength length = scale_.length_of(in_time, told);
+  seen = as_it_moved(std::move(seen), length, heading());
+  if (seen.pose.t.norm() > 0.0) heading_ = seen.pose.t.normalized();
+  if (scale_.map_is_refuted()) map_.forget();
   const StepResult step = step_result(before, now, seen, length, map_.segment());
   attitude_.follow(step);
   const RelativePose motion = motion_of(step);
@@ -110,6 +142,25 @@ std::optional<ScaleCorrection> Odometry::scale_correction(const std::optional<Ma
                                                           double focal_px) {
   if (!lengths) return std::nullopt;
   return scale_.correct(*lengths, attitude_.before(lengths->newest.T_2_1.R), focal_px);
+}
+
+Eigen::Vector3d Odometry::heading() const {
+  if (heading_.norm() > 0.0) return heading_;
+  return -attitude_.now().R_level_cam.row(2).transpose();  // straight ahead
+}
+
+MotionPrior Odometry::motion_prior(double end_s) const {
+  MotionPrior prior;
+  const double height = scale_.camera_height();
+  const auto expected = scale_.expected(newest_.time_s, end_s);
+  if (heading_.norm() > 0.0) {
+    prior.direction = heading_;
+    prior.direction_sigma = kHeadingSigma;
+  }
+  if (!expected || !(height > 0.0)) return prior;
+  prior.length = expected->length / height;
+  prior.length_sigma = expected->sigma / height;
+  return prior;
 }
 
 std::optional<RelativePose> Odometry::expected() const {

@@ -23,7 +23,9 @@ class Odometry {
   /// The first frame; its image is not used.
   [[nodiscard]] FrameResult start(const CameraFrame& frame);
   /// A frame and its correspondences with the one before, normalised.
-  [[nodiscard]] FrameResult advance(const CameraFrame& frame, TrackedPair pair);
+  /// @param road  grey values of both images; may be empty
+  [[nodiscard]] FrameResult advance(const CameraFrame& frame, TrackedPair pair,
+                                    const RoadPair& road);
   /// Settles what is left; the next step begins a new segment at the last frame.
   [[nodiscard]] Settled finish() { return map_.finish(); }
 
@@ -38,7 +40,10 @@ class Odometry {
   [[nodiscard]] std::optional<RelativePose> expected() const;
 
  private:
-  [[nodiscard]] FrameResult integrate(const FrameStamp& now, const TwoView& seen);
+  [[nodiscard]] FrameResult integrate(const FrameStamp& now, TwoView seen, const RoadPair& road);
+  [[nodiscard]] MotionPrior motion_prior(double end_s) const;
+  /// t̂ of a camera that goes on as it did.
+  [[nodiscard]] Eigen::Vector3d heading() const;
   [[nodiscard]] std::optional<ScaleCorrection> scale_correction(
       const std::optional<MapLengths>& lengths, double focal_px);
 
@@ -46,8 +51,9 @@ class Odometry {
   Attitude attitude_;
   Scale scale_;
   KeyframeMap map_;
-  FrameStamp newest_;         ///< frame
-  RelativePose last_motion_;  ///< T_2_1 of the last step, length as used
+  FrameStamp newest_;                                  ///< frame
+  RelativePose last_motion_;                           ///< T_2_1 of the last step, length as used
+  Eigen::Vector3d heading_ = Eigen::Vector3d::Zero();  ///< t̂ of the last step that had one
 };
 
 }  // namespace oneac

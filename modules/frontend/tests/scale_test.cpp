@@ -59,8 +59,12 @@ TwoView seen_road(double metres) {
 }
 
 StepInTime step(StepStatus status, double begin_s, double expected_length) {
-  return {
-      status, begin_s, begin_s + 0.1, {Eigen::Matrix3d::Identity(), {0.0, 0.0, -expected_length}}};
+  StepInTime step;
+  step.status = status;
+  step.begin_s = begin_s;
+  step.end_s = begin_s + 0.1;
+  step.expected = {Eigen::Matrix3d::Identity(), {0.0, 0.0, -expected_length}};
+  return step;
 }
 
 LengthMeasurement carried(double length) {
@@ -116,12 +120,95 @@ TEST(Scale, TrustsAMapLessThatWasCarriedBadly) {
   EXPECT_LT(share_after(0.2), 0.5 * share_after(0.01));
 }
 
-TEST(Scale, AStandingCameraDrivesZeroMetres) {
+StepInTime rest(std::optional<RoadTravel> road) {
+  StepInTime resting = step(StepStatus::kNoMotion, 10.1, 1.0);
+  resting.road = road;
+  return resting;
+}
+
+/// A drive that has just gone 1 m in a tenth of a second.
+Scale driving() {
   Scale scale = started(by("height"));
-  const StepLength length = scale.length_of(step(StepStatus::kNoMotion, 0.0, 1.0), {});
+  static_cast<void>(
+      scale.length_of(step(StepStatus::kOk, 10.0, 1.0), {{1.0, 0.01, LengthSource::kRoad, 50}}));
+  return scale;
+}
+
+TEST(Scale, ACameraWhoseRoadRestsDrivesZeroMetres) {
+  Scale scale = started(by("height"));
+  const StepLength length = scale.length_of(rest(RoadTravel{0.001, 0.004}), {});
   EXPECT_TRUE(length.metric);
   EXPECT_EQ(length.length, 0.0);
+  EXPECT_EQ(length.sigma_m, 0.004) << "zero is a measurement";
   EXPECT_EQ(length.source, LengthSource::kStanding);
+}
+
+TEST(Scale, ARestThatNobodySawOnTheRoadIsNotMetric) {
+  Scale scale = started(by("height"));
+  EXPECT_FALSE(scale.length_of(rest({}), {}).metric);
+}
+
+TEST(Scale, ARestWhoseRoadMovesIsNone) {
+  Scale scale = driving();
+  const StepLength length = scale.length_of(rest(RoadTravel{0.95, 0.03}), {});
+  EXPECT_EQ(length.length, 0.95);
+  EXPECT_EQ(length.source, LengthSource::kRoadImage);
+  EXPECT_TRUE(length.metric);
+}
+
+TEST(Scale, NoCarStopsFromTenMetresASecondBetweenTwoImages) {
+  Scale scale = driving();
+  const StepLength length = scale.length_of(rest({}), {});
+  EXPECT_NEAR(length.length, 1.0, 1e-9);
+  EXPECT_EQ(length.source, LengthSource::kHeld);
+  EXPECT_FALSE(length.metric);
+}
+
+TEST(Scale, DoesNotBelieveALengthThatNeedsMoreThanTyres) {
+  Scale scale = driving();
+  const StepInTime next = step(StepStatus::kOk, 10.1, 1.0);
+  const StepLength length = scale.length_of(next, {{0.3, 0.01, LengthSource::kRoad, 50}});
+  EXPECT_NEAR(length.length, 1.0, 1e-9);
+  EXPECT_EQ(length.source, LengthSource::kHeld);
+}
+
+TEST(Scale, BelievesWhatContradictsTheSpeedForHalfASecond) {
+  Scale scale = driving();
+  StepLength length;
+  for (int i = 1; i < 8; ++i) {
+    length = scale.length_of(step(StepStatus::kOk, 10.0 + 0.1 * i, 1.0),
+                             {{0.3, 0.01, LengthSource::kRoad, 50}});
+  }
+  EXPECT_EQ(length.length, 0.3) << "the speed was wrong";
+  EXPECT_TRUE(length.metric);
+}
+
+TEST(Scale, RoadAndMapThatDisagreeRefuteTheMap) {
+  Scale scale = driving();
+  static_cast<void>(scale.correct({road(0.9, 0.9), {}}, {}, kFocal));
+  for (int i = 1; i < 6; ++i) {
+    StepInTime next = step(StepStatus::kOk, 10.0 + 0.1 * i, 1.0);
+    next.road = RoadTravel{1.0, 0.03};
+    const StepLength length = scale.length_of(next, {carried(0.1)});
+    EXPECT_EQ(length.length, 1.0) << "the map lost its scale";
+    EXPECT_EQ(scale.map_is_refuted(), i >= 5) << i;
+  }
+}
+
+TEST(Inertia, ExpectsNothingBeforeASpeedWasTold) {
+  EXPECT_FALSE(Inertia({}, 2.0).expect(0.0, 0.1));
+}
+
+TEST(Inertia, IsLessSureTheLongerAgo) {
+  Inertia inertia({}, 2.0);
+  inertia.tell(0.0, 0.1, 1.0, 0.01);
+  const auto soon = inertia.expect(0.1, 0.2);
+  const auto late = inertia.expect(1.1, 1.2);
+  ASSERT_TRUE(soon && late);
+  EXPECT_NEAR(soon->length, 1.0, 1e-9);
+  EXPECT_LT(5.0 * soon->sigma, late->sigma);
+  EXPECT_LT(late->least, soon->least);
+  EXPECT_FALSE(inertia.expect(5.0, 5.1)) << "too long ago";
 }
 
 TEST(Scale, RefusesTheLengthOfAFlyingCar) {

@@ -27,8 +27,8 @@ bool contains(const std::vector<std::string>& names, const std::string& name) {
 RobustResult gc_ransac_with_degeneracies(const InitialiserInput& input, const Solver& solver,
                                          const InitialiserOptions& options) {
   const double threshold = options.gc_ransac.threshold_px / input.focal_px;
-  const DegeneracyBounds bounds{
-      threshold, options.consensus.standing_px / input.focal_px, input.R_level_cam, {}};
+  const DegeneracyBounds bounds{threshold, options.consensus.standing_px / input.focal_px,
+                                input.R_level_cam, input.prior};
   if (!input.acs.empty()) {
     if (auto stood = standing(input.acs, bounds)) return *stood;
   }
@@ -139,7 +139,7 @@ InitialiserResult MethodInitialiser::estimate_finite(const InitialiserInput& inp
   if (estimator == kGcRansac) return gc_ransac_with_degeneracies(input, *method_->solver, options_);
   ConsensusOptions consensus = options_.consensus;
   if (method_->solver != nullptr) consensus.pool = SolverPool::only(*method_->solver);
-  return one_ac_consensus(input.acs, input.R_level_cam, input.focal_px, consensus);
+  return one_ac_consensus(input.acs, input.R_level_cam, input.focal_px, consensus, input.prior);
 }
 
 void register_methods() {

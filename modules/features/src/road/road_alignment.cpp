@@ -1,6 +1,6 @@
 #include "oneac/features/road_alignment.h"
 
-#include "../image_pyramid.h"
+#include "../klt_track.h"
 #include "road_polish.h"
 #include "road_search.h"
 
@@ -248,6 +248,14 @@ RoadImage::RoadImage(const ImageView& image) {
 }
 
 RoadImage::RoadImage(std::shared_ptr<const ImagePyramid> pyramid) : pyramid_(std::move(pyramid)) {}
+
+RoadImage road_image(const std::shared_ptr<const FrameFeatures>& features, const ImageView& image) {
+  const auto frame = std::dynamic_pointer_cast<const KltFrame>(features);
+  if (!frame || frame->pyramid.levels.size() < static_cast<std::size_t>(kLevels)) {
+    return RoadImage(image);
+  }
+  return RoadImage(std::shared_ptr<const ImagePyramid>(frame, &frame->pyramid));
+}
 
 void RoadAlignmentOptions::validate() const {
   const auto positive = [](double value, const char* field) {

@@ -58,6 +58,8 @@ class KeyframeMap {
   /// Ends the step.
   /// @param correction  when move() made a keyframe
   [[nodiscard]] FrameInMap settle(const std::optional<ScaleCorrection>& correction);
+  /// What the map says of lengths is wrong: it begins anew with the next step.
+  void forget() { lost_ = true; }
   /// What still waits, at the end of a drive. A frame that comes after it begins a new segment.
   [[nodiscard]] Settled finish();
 
@@ -79,6 +81,7 @@ class KeyframeMap {
   std::size_t segment_ = 0;       ///< raised when the map began anew
   bool lost_ = false;             ///< the last step was not carried by its images
   double keyframe_time_s_ = 0.0;  ///< of the last keyframe
+  double way_ = 0.0;              ///< [map] to the newest one, before the window was adjusted
 };
 
 }  // namespace oneac

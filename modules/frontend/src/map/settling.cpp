@@ -39,6 +39,13 @@ Matrix6 as_g2o(const Matrix6& information, const RelativePose& T_2_1, double sca
   return 0.5 * (inverse + inverse.transpose());
 }
 
+/// How much longer adjustments made a step; 1 where that is no longer the same step.
+double stretch(double now, double before) {
+  constexpr double kMost = 2.0;
+  const double ratio = before > 0.0 ? now / before : 1.0;
+  return ratio < kMost && ratio > 1.0 / kMost ? ratio : 1.0;
+}
+
 }  // namespace
 
 void Settling::add_frame(std::size_t frame, std::size_t keyframe,
@@ -63,6 +70,7 @@ void Settling::rescale(double factor) {
     // The map is rescaled about its oldest keyframe: the step that ends there keeps its length.
     if (id != notes_.begin()->first) note.log_factor += (note.share - 1.0) * change;
   }
+  for (auto& [id, note] : notes_) note.way *= factor;
   for (Waiting& waiting : frames_) waiting.T_cam_keyframe.t *= factor;
 }
 
@@ -94,13 +102,19 @@ void Settling::settle_oldest(LocalMap& map, Settled& settled) {
   last_segment_ = note.segment;
   keyframe.points = map.retire_oldest();
   for (MapPoint& point : keyframe.points) point.position += offset_.cast<float>();
-  settle_frames(oldest, settled);
+  settle_frames(oldest, map, settled);
   settled.keyframes.push_back(std::move(keyframe));
 }
 
-void Settling::settle_frames(const WindowKeyframe& keyframe, Settled& settled) {
-  // They lie on the step that ends in the next keyframe.
-  const double factor = notes_.empty() ? 1.0 : std::exp(notes_.begin()->second.log_factor);
+void Settling::settle_frames(const WindowKeyframe& keyframe, const LocalMap& map,
+                             Settled& settled) {
+  // They lie on the step that ends in the next keyframe, and stretch with it.
+  double factor = 1.0;
+  if (!notes_.empty() && !map.keyframes().empty()) {
+    const Note& next = notes_.begin()->second;
+    const RelativePose step = map.keyframes().front().T_cam_map * keyframe.T_cam_map.inverse();
+    factor = std::exp(next.log_factor) * stretch(step.t.norm(), next.way);
+  }
   while (!frames_.empty() && frames_.front().keyframe <= keyframe.id) {
     RelativePose T_cam_keyframe = frames_.front().T_cam_keyframe;
     T_cam_keyframe.t *= factor;

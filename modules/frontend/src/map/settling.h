@@ -21,6 +21,7 @@ class Settling {
     std::size_t segment = 0;
     bool metric = false;
     double scale_sigma = 0.0;  ///< relative 1σ of lengths
+    double way = 0.0;  ///< [map] from the keyframe before, as its frames went before adjustments
     /// How far today's measurements speak for the step that ended here, and ...
     double share = 1.0;
     double log_factor = 0.0;  ///< ... what its length in the map has to be multiplied with for it
@@ -41,7 +42,7 @@ class Settling {
   [[nodiscard]] const Eigen::Vector3d& offset() const { return offset_; }
 
  private:
-  void settle_frames(const WindowKeyframe& keyframe, Settled& settled);
+  void settle_frames(const WindowKeyframe& keyframe, const LocalMap& map, Settled& settled);
   struct Waiting {
     std::size_t frame;
     std::size_t keyframe;

@@ -11,13 +11,14 @@ namespace oneac {
 
 /// Who told a length.
 enum class LengthSource {
-  kNone,      ///< nobody
-  kStanding,  ///< the camera did not travel: zero metres
-  kMap,       ///< landmarks carry the length of the map
-  kRoad,      ///< the road, by the camera's height
-  kStereo,    ///< depths by the right images
-  kSpeed,     ///< speeds over ground
-  kHeld,      ///< the last speed goes on
+  kNone,       ///< nobody
+  kStanding,   ///< the camera did not travel: zero metres
+  kMap,        ///< landmarks carry the length of the map
+  kRoad,       ///< the road, by the camera's height: its corners
+  kRoadImage,  ///< the same by its grey values
+  kStereo,     ///< depths by the right images
+  kSpeed,      ///< speeds over ground
+  kHeld,       ///< the last speed goes on
 };
 
 /// The length of one step.
@@ -26,6 +27,12 @@ struct LengthMeasurement {
   double sigma = 0.0;   ///< relative 1σ
   LengthSource source = LengthSource::kNone;
   std::size_t support = 0;  ///< landmarks, or correspondences on the road
+};
+
+/// What the grey values of the road say of a step; zero is a measurement, too.
+struct RoadTravel {
+  double length = 0.0;  ///< [m], or [camera heights] where the height is not known
+  double sigma = 0.0;   ///< 1σ, in the same unit
 };
 
 /// True length over length in the map.
@@ -38,10 +45,12 @@ struct ScaleMeasurement {
 
 /// What a step's length comes to.
 struct StepLength {
-  double length = 0.0;  ///< [m, or units while the drive has no scale] as used in the trajectory
-  double sigma = 0.0;   ///< relative 1σ of a metric length, else 0
+  double length = 0.0;   ///< [m, or units while the drive has no scale] as used in the trajectory
+  double sigma = 0.0;    ///< relative 1σ of a metric length, else 0
+  double sigma_m = 0.0;  ///< [m] the same of a metric length, absolute: of a rest, too
   bool metric = false;
   LengthSource source = LengthSource::kNone;  ///< whose word it is
+  bool conflict = false;                      ///< road and map contradict each other
   std::size_t landmarks = 0;                  ///< that carried it
   std::size_t ground_acs = 0;                 ///< on the road, where it was asked
 };

@@ -1,8 +1,10 @@
 #pragma once
 
 #include "attitude/levelling.h"
+#include "inertia.h"
 #include "measurements.h"
 #include "road_length.h"
+#include "road_travel.h"
 #include "speed_scale.h"
 #include "two_view/two_view.h"
 
@@ -17,8 +19,11 @@ namespace oneac {
 /// A step whose length is asked.
 struct StepInTime {
   StepStatus status = StepStatus::kPredicted;
-  double begin_s = 0.0, end_s = 0.0;  ///< [s] Unix times of the two frames
-  RelativePose expected;              ///< motion of the step before, length as used
+  double begin_s = 0.0, end_s = 0.0;   ///< [s] Unix times of the two frames
+  RelativePose expected;               ///< motion of the step before, length as used
+  std::optional<RoadTravel> road;      ///< what the grey values of the road say of it
+  std::optional<RoadTravel> evidence;  ///< of a rest, what its near points say [camera heights]
+  bool near_identical = false;         ///< the images are: near and far kept their places
 
   [[nodiscard]] double seconds() const { return end_s - begin_s; }
 };
@@ -46,6 +51,18 @@ class Scale {
   [[nodiscard]] std::vector<LengthMeasurement> measure(
       const TwoView& seen, const std::optional<LengthMeasurement>& carried,
       const Levelling& first) const;
+  /// What the grey values of the road say of a step; asked where they are needed: where the map
+  /// does not carry the length, where rest is in question, and now and then as a check.
+  /// @param heading  t̂ of a camera that goes on as it did
+  [[nodiscard]] std::optional<RoadTravel> along_road(
+      const RoadPair& road, const TwoView& seen, const std::optional<LengthMeasurement>& carried,
+      const Levelling& first, const Eigen::Vector3d& heading, const StepInTime& step);
+  /// What inertia lets expect; empty while no speed is known.
+  [[nodiscard]] std::optional<ExpectedLength> expected(double begin_s, double end_s) const {
+    return inertia_.expect(begin_s, end_s);
+  }
+  /// Road and map have contradicted each other for too long: the map should begin anew.
+  [[nodiscard]] bool map_is_refuted() const { return conflicts_ >= kPatience; }
   /// The length of the step, which is then remembered as the newest.
   [[nodiscard]] StepLength length_of(const StepInTime& step,
                                      const std::vector<LengthMeasurement>& measured);
@@ -61,8 +78,24 @@ class Scale {
   [[nodiscard]] double uncertainty() const { return filter_.uncertainty(); }
 
  private:
+  static constexpr int kPatience = 5;  ///< steps in a row
+
+  /// Since the last keyframe: the way as others than the map tell it.
+  struct Interval {
+    double way = 0.0;             ///< [m]
+    double relative_sigma = 0.0;  ///< the largest of its steps: their errors are alike
+    bool whole = true;            ///< somebody told every step
+  };
+
   [[nodiscard]] StepLength decided(const StepInTime& step,
                                    const std::vector<LengthMeasurement>& measured) const;
+  [[nodiscard]] StepLength chosen(const std::vector<StepLength>& told,
+                                  const StepInTime& step) const;
+  [[nodiscard]] StepLength held(const StepInTime& step) const;
+  [[nodiscard]] StepLength at_rest(const StepInTime& step) const;
+  [[nodiscard]] StepLength by_road_image(const StepInTime& step) const;
+  void remember(const StepInTime& step, const StepLength& length);
+  [[nodiscard]] std::optional<ScaleMeasurement> by_interval(const KeyframePair& pair) const;
   [[nodiscard]] StepLength stated(const LengthMeasurement& measured) const;
   [[nodiscard]] double held_length(const StepInTime& step) const;
   [[nodiscard]] std::vector<ScaleMeasurement> measure(const MapLengths& map, const Levelling& first,
@@ -82,6 +115,13 @@ class Scale {
   double carried_variance_ = 0.0;   ///< relative, of what landmarks carried since the last keyframe
   double last_metric_speed_ = 0.0;  ///< [m/s]
   double last_metric_time_ = 0.0;   ///< [s]
+  double max_uncertainty_;
+  Inertia inertia_;
+  Interval interval_;
+  bool needs_road_image_ = true;  ///< the road's corners did not measure the last keyframe
+  int unchecked_ = 0;             ///< steps since the road's grey values were asked
+  int conflicts_ = 0;             ///< steps in a row in which road and map disagreed
+  int contradicted_ = 0;          ///< steps in a row in which nobody agreed with inertia
 };
 
 }  // namespace oneac

@@ -47,6 +47,7 @@ double ScaleFilter::start(double ratio, double noise) {
 }
 
 double ScaleFilter::correct(double ratio, double sigma) {
+  began_anew_ = false;
   if (!(ratio > 0.0) || !std::isfinite(ratio) || !(sigma > 0.0)) return 1.0;
   const double noise = sigma * sigma;
   if (!known_) return start(ratio, noise);
@@ -57,6 +58,7 @@ double ScaleFilter::correct(double ratio, double sigma) {
   const double total = state_share + error_share + noise;
   if (std::abs(innovation) > options_.outlier_sigmas * std::sqrt(total)) {
     if (++refused_ < kPatience) return 1.0;
+    began_anew_ = true;
     return start(ratio, noise);
   }
   refused_ = 0;

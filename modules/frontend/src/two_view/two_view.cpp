@@ -58,6 +58,7 @@ TwoView TwoViewEstimator::estimate(TrackedPair pair, const TwoViewPrior& prior) 
   }
   result.pose = found.pose;
   result.covariance = found.covariance;
+  result.motion = found.motion;
   result.inliers = std::move(found.inliers);
   return result.status == StepStatus::kOk ? refined(std::move(result)) : result;
 }
@@ -66,7 +67,8 @@ InitialiserResult TwoViewEstimator::initialise(const TrackedPair& pair, const Tw
                                                double& cpu_ms) const {
   const std::vector<AffineCorrespondence> acs = affine_parts(pair);
   const StageTimer timer(cpu_ms);
-  return initialiser_->estimate({acs, prior.R_level_cam, prior.focal_px, seed_ + prior.number});
+  return initialiser_->estimate(
+      {acs, prior.R_level_cam, prior.focal_px, seed_ + prior.number, prior.motion});
 }
 
 TwoView TwoViewEstimator::refined(TwoView start) const {

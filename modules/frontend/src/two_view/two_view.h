@@ -10,6 +10,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 namespace oneac {
@@ -22,6 +23,7 @@ struct TwoViewPrior {
   RelativePose expected;     ///< motion that goes on when the images do not tell; t of any length
   double focal_px = 1.0;     ///< [px] of one normalised unit
   std::uint64_t number = 0;  ///< of the pair in the drive: methods that draw at random differ by it
+  MotionPrior motion;        ///< direction and length [camera heights] that inertia lets expect
 };
 
 /// What two images alone say about the motion between them.
@@ -33,6 +35,7 @@ struct TwoView {
   Eigen::Matrix<double, 6, 6> covariance = Eigen::Matrix<double, 6, 6>::Zero();
   TrackedPair pair;           ///< normalised, its second points corrected for perspective
   std::vector<bool> inliers;  ///< one per correspondence; empty when predicted
+  std::optional<MotionEvidence> motion;  ///< where rest was in question
   std::size_t inlier_count = 0;
   double focal_px = 1.0;                      ///< [px] of one normalised unit
   double estimate_ms = 0.0, refine_ms = 0.0;  ///< CPU time [ms]

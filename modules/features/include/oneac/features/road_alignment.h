@@ -1,6 +1,7 @@
 #pragma once
 
 #include "oneac/base/image.h"
+#include "oneac/features/ac_extractor.h"
 #include "oneac/geometry/camera.h"
 #include "oneac/geometry/relative_pose.h"
 
@@ -71,6 +72,10 @@ class RoadImage {
  private:
   std::shared_ptr<const internal::ImagePyramid> pyramid_;
 };
+
+/// The image that features were found in; shares their pyramid where they have one.
+[[nodiscard]] RoadImage road_image(const std::shared_ptr<const FrameFeatures>& features,
+                                   const ImageView& image);
 
 /// What is known of a step before its road is looked at.
 struct RoadStep {

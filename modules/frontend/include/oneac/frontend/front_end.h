@@ -1,6 +1,7 @@
 #pragma once
 
 #include "oneac/features/ac_tracker.h"
+#include "oneac/features/road_alignment.h"
 #include "oneac/frontend/drive_trajectory.h"
 #include "oneac/frontend/frame_result.h"
 #include "oneac/frontend/front_end_options.h"
@@ -104,6 +105,7 @@ class FrontEnd : public mrpt::system::COutputLogger {
   std::unique_ptr<Odometry> odometry_;
   bool started_ = false;
   PinholeCamera previous_camera_;
+  RoadImage previous_road_;
   TrackedPair correspondences_;
   ObservationIntake intake_;
   DriveTrajectory trajectory_;

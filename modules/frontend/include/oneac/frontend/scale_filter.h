@@ -28,6 +28,9 @@ class ScaleFilter {
   /// @return the factor by which the map's lengths must be multiplied; 1 for what is not believed
   [[nodiscard]] double correct(double ratio, double sigma);
 
+  /// Whether the last correct() gave up what was believed before, and began with its measurement.
+  [[nodiscard]] bool began_anew() const { return began_anew_; }
+
   /// Relative 1σ of the map's scale; infinite before the first measurement.
   [[nodiscard]] double uncertainty() const;
   [[nodiscard]] bool is_metric() const { return uncertainty() <= options_.max_uncertainty; }
@@ -43,6 +46,7 @@ class ScaleFilter {
   double error_variance_ = 0.0;  ///< ... its variance ...
   double covariance_ = 0.0;      ///< ... and its covariance with the state
   int refused_ = 0;
+  bool began_anew_ = false;
 };
 
 }  // namespace oneac

@@ -50,6 +50,9 @@ struct ScaleOptions {
   double outlier_sigmas = 5.0;     ///< [σ] a measurement farther from the map's scale is not
                                    ///< believed; roads are not planes, their errors have long tails
 
+  double acceleration = 3.0;       ///< [m/s²] 1σ of what drivers do: a firm brake is 3 to 4
+  double max_acceleration = 12.0;  ///< [m/s²] no tyre on a road gives more: µ g with µ = 1.2
+
   void validate() const;
 };
 
@@ -63,6 +66,8 @@ void describe(Visitor&& visit, ScaleOptions& o) {
         "1-sigma of the height above the road ahead, the same for metres");
   visit("max_uncertainty", o.max_uncertainty, "-", "relative 1-sigma that counts as metric");
   visit("outlier_sigmas", o.outlier_sigmas, "sigma", "measurements beyond it are left out");
+  visit("acceleration", o.acceleration, "m/s^2", "1-sigma of the vehicle's acceleration");
+  visit("max_acceleration", o.max_acceleration, "m/s^2", "lengths that need more are not believed");
 }
 
 }  // namespace oneac

@@ -1,0 +1,44 @@
+#pragma once
+
+#include "oneac/frontend/window_options.h"
+
+#include <optional>
+
+namespace oneac {
+
+/// What a step's length may be by the speed before it.
+struct ExpectedLength {
+  double length = 0.0;  ///< [m]
+  double sigma = 0.0;   ///< [m] 1σ
+  double least = 0.0;   ///< [m] nothing shorter is possible for a vehicle ...
+  double most = 0.0;    ///< [m] ... and nothing longer
+
+  /// Whether a length [m] with this 1σ [m] can be true.
+  [[nodiscard]] bool allows(double length_m, double sigma_m) const;
+};
+
+/// A vehicle has mass: what it did a moment ago bounds what it does now. Kalman filter of the speed
+/// under accelerations of `scale.acceleration` (1σ), and the physical bound
+/// `scale.max_acceleration`, which tyres do not exceed.
+class Inertia {
+ public:
+  /// @param memory_s  a speed older than this says nothing
+  Inertia(const ScaleOptions& options, double memory_s);
+
+  /// Of the step between two times [s]; empty while no speed is known.
+  [[nodiscard]] std::optional<ExpectedLength> expect(double begin_s, double end_s) const;
+  /// A step was this long, 1σ, both [m].
+  void tell(double begin_s, double end_s, double length, double sigma);
+  /// Lengths turned out to be so many times as long.
+  void rescale(double factor);
+  void forget() { known_ = false; }
+
+ private:
+  double acceleration_, max_acceleration_, memory_s_;
+  bool known_ = false;
+  double speed_ = 0.0;   ///< [m/s]
+  double sigma_ = 0.0;   ///< [m/s] 1σ
+  double time_s_ = 0.0;  ///< [s] to which it belongs: the middle of the newest step
+};
+
+}  // namespace oneac

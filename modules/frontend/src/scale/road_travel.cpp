@@ -1,0 +1,70 @@
+#include "road_travel.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace oneac {
+namespace {
+
+constexpr double kFastest = 70.0;  // [m/s] 250 km/h
+// [m] where the height is not known, speeds are bounded as if it were this.
+constexpr double kUsualHeight = 1.5;
+constexpr double kLeastHeights = 0.05;  // [heights] room for the search at a standstill
+// Where two views did not say how sure they are [rad]: rotation, direction.
+constexpr double kTurnSigma = 0.001, kTravelSigma = 0.02;
+// [rad] 1σ of a direction that was taken from the step before.
+constexpr double kHeadingSigma = 0.04;
+constexpr double kLeastExpectedSigma = 0.03;  // [heights]
+// [heights] Two views that saw a translation saw more than this, unless the car creeps: then what
+// keeps its place in the picture is the bonnet, or dirt, and no road.
+constexpr double kBeyond = 3.0;  // [σ]
+constexpr double kMoving = 0.05, kCreeping = 0.15;
+
+double rms(const Eigen::Matrix3d& covariance, double unknown) {
+  const double variance = covariance.trace() / 3.0;
+  return variance > 0.0 && std::isfinite(variance) ? std::sqrt(variance) : unknown;
+}
+
+/// What inertia allows, in camera heights.
+void expect(const RoadTravelPrior& prior, double height, bool moves, RoadStep& step) {
+  const double fastest = std::max(kLeastHeights, kFastest * prior.seconds / height);
+  step.max_length = std::min(fastest, 20.0);
+  const bool creeps = prior.expected && prior.expected->length < kCreeping * height;
+  if (moves && !creeps) step.min_length = std::min(kMoving, step.max_length);
+  if (!prior.expected) return;
+  step.length = prior.expected->length / height;
+  step.length_sigma = std::max(prior.expected->sigma / height, kLeastExpectedSigma);
+  step.min_length = std::clamp(prior.expected->least / height, step.min_length, step.max_length);
+  step.max_length =
+      std::clamp(prior.expected->most / height + kLeastHeights, step.min_length, step.max_length);
+}
+
+}  // namespace
+
+std::optional<RoadTravel> road_travel(const RoadPair& road, const TwoView& seen,
+                                      const RoadTravelPrior& prior) {
+  if (road.empty() || !(prior.seconds > 0.0)) return std::nullopt;
+  const double height = prior.camera_height > 0.0 ? prior.camera_height : kUsualHeight;
+  const bool directed = seen.status == StepStatus::kOk && seen.pose.t.norm() > 0.0;
+  RoadStep step;
+  step.T_2_1 = {seen.pose.R, directed ? seen.pose.t : prior.heading};
+  if (!step.T_2_1.is_finite() || !(step.T_2_1.t.norm() > 0.0)) return std::nullopt;
+  step.information = motion_information(
+      rms(seen.covariance.topLeftCorner<3, 3>(), kTurnSigma),
+      directed ? rms(seen.covariance.bottomRightCorner<3, 3>(), kTravelSigma) : kHeadingSigma);
+  step.R_level_cam = prior.first.R_level_cam;
+  step.pitch_sigma = std::max(prior.first.pitch_sigma, step.pitch_sigma);
+  step.roll_sigma = std::max(prior.first.roll_sigma, step.roll_sigma);
+  expect(prior, height, directed, step);
+  const RoadAlignment aligned =
+      align_road(road.first, road.second, road.camera, step, road.mask.view());
+  if (aligned.status != RoadStatus::kMeasured) return std::nullopt;
+  const double reach = kBeyond * aligned.sigma;  // the fit may leave what was searched
+  if (aligned.length < step.min_length - reach || aligned.length > step.max_length + reach) {
+    return std::nullopt;
+  }
+  const double unit = prior.camera_height > 0.0 ? prior.camera_height : 1.0;
+  return RoadTravel{aligned.length * unit, aligned.sigma * unit};
+}
+
+}  // namespace oneac

@@ -1,0 +1,41 @@
+#pragma once
+
+#include "attitude/levelling.h"
+#include "inertia.h"
+#include "measurements.h"
+#include "two_view/two_view.h"
+
+#include "oneac/base/image.h"
+#include "oneac/features/road_alignment.h"
+#include "oneac/geometry/camera.h"
+
+#include <Eigen/Core>
+
+#include <optional>
+
+namespace oneac {
+
+/// The road of the two images of a step. Empty images: nobody looks at pixels.
+struct RoadPair {
+  RoadImage first, second;
+  PinholeCamera camera;
+  GreyImage mask;  ///< dark where pixels are the car's own; empty: none known
+
+  [[nodiscard]] bool empty() const { return first.empty() || second.empty(); }
+};
+
+/// Where a step is looked for on the road.
+struct RoadTravelPrior {
+  Levelling first;          ///< of the first view
+  Eigen::Vector3d heading;  ///< t̂ of a camera that goes on as it did, for a step without direction
+  std::optional<ExpectedLength> expected;
+  double seconds = 0.0;
+  double camera_height = 0.0;  ///< [m]; 0: not known, lengths are in camera heights then
+};
+
+/// Aligns the road of a step photometrically along the direction of two views, or along the heading
+/// where they found none. Empty unless the road says how long it was.
+[[nodiscard]] std::optional<RoadTravel> road_travel(const RoadPair& road, const TwoView& seen,
+                                                    const RoadTravelPrior& prior);
+
+}  // namespace oneac
