@@ -15,6 +15,7 @@ page() {
   "$program" "$@" --help | awk -v name="$name" -v command="oneac${*:+ $*}" -v version="$version" '
     function plain(text) {  # as typed: no hyphenation, no roff commands
       gsub(/\\/, "\\e", text); gsub(/-/, "\\-", text)
+      gsub(/,/, ",\\:", text)  # a long list of choices may go on in the next line
       return text ~ /^[.\047]/ ? "\\&" text : text
     }
     NR == 1 {

@@ -14,7 +14,6 @@
 #include "oneac/geometry/homography.h"
 #include "oneac/geometry/leveling.h"
 #include "oneac/solvers/registry.h"
-#include "oneac/solvers/registry.h"
 
 #include <Eigen/LU>
 #include <opencv2/core.hpp>

@@ -83,7 +83,8 @@ int run(int argc, char** argv) {
   std::printf("\n|---|");
   for (std::size_t i = 0; i < kShares.size(); ++i) std::printf("---|");
   for (const Contestant& contestant : contestants()) {
-    PlotCurve curve{contestant.name, {}};
+    PlotSeries curve;
+    curve.label = contestant.name;
     std::printf("\n| %s |", contestant.name.c_str());
     for (const double share : kShares) {
       const StressRow row = measure_under({share, 0.0, 0.0}, pairs, truth, contestant.estimate);

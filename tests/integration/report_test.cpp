@@ -25,6 +25,15 @@ class Report : public DriveFixture {
     EXPECT_EQ(result.exit_code, 0) << result.err;
     return read_file(folder / "report.html");
   }
+  /// Without the letters of its pictures, which may spell anything.
+  [[nodiscard]] static std::string words_of(std::string html) {
+    const std::string picture = "base64,";
+    for (auto at = html.find(picture); at != std::string::npos; at = html.find(picture, at)) {
+      at += picture.size();
+      html.erase(at, html.find('"', at) - at);
+    }
+    return html;
+  }
   /// Everything before the section that depends on the clock.
   [[nodiscard]] static std::string without_timing(const std::string& html) {
     const auto timing = html.find("<h2>Timing</h2>");
@@ -58,7 +67,7 @@ TEST_F(Report, DrawsTheDriveItsReferenceAndAFrame) {
     EXPECT_NE(html.find(text), std::string::npos) << text;
   }
   EXPECT_EQ(html.find("no values"), std::string::npos);
-  EXPECT_EQ(html.find("nan"), std::string::npos);
+  EXPECT_EQ(words_of(html).find("nan"), std::string::npos);
 }
 
 TEST_F(Report, IsTheSameAtAnyThreadCountButForTheTiming) {
@@ -68,7 +77,7 @@ TEST_F(Report, IsTheSameAtAnyThreadCountButForTheTiming) {
 
 TEST_F(Report, StandsWithoutReferenceOrWithASingleFrame) {
   const std::string html = report("a", {"--count", "1"});
-  EXPECT_EQ(html.find("nan"), std::string::npos);
+  EXPECT_EQ(words_of(html).find("nan"), std::string::npos);
   EXPECT_EQ(html.find("<h2>Worst frames</h2>"), std::string::npos);
 }
 

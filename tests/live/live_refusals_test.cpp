@@ -59,7 +59,7 @@ TEST_F(LiveRefusals, LensesThatAreNotPlumbBob) {
 }
 
 TEST_F(LiveRefusals, ACalibrationThatChanges) {
-  expect_both_say("changes here (cut the log there", [](CObservationImage& image, int number) {
+  expect_both_say("changes here; cut the log there", [](CObservationImage& image, int number) {
     if (number >= 4) image.cameraParams.setIntrinsicParamsFromValues(600, 600, 200, 150);
   });
 }

@@ -83,7 +83,8 @@ TEST(HtmlReport, NeedsNothingFromElsewhereAndEscapesNames) {
   data.pairs = {pair};
   const std::string html =
       html_report(data, summarise(data), {{0, 0, {1, 1, "foo", {}}}}, {"a < b"});
-  EXPECT_EQ(html.find("http"), std::string::npos);
+  EXPECT_EQ(html.find("http:"), std::string::npos);
+  EXPECT_EQ(html.find("https:"), std::string::npos);
   EXPECT_NE(html.find("&lt;script&gt;"), std::string::npos);
   EXPECT_NE(html.find("a &lt; b"), std::string::npos);
   EXPECT_NE(html.find("data:image/jpeg;base64,Zm9v"), std::string::npos);

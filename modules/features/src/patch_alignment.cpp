@@ -10,8 +10,8 @@
 namespace oneac::internal {
 namespace {
 
-constexpr double kGrey = 16.0;          // pyramid units of one grey level
-constexpr double kLeastContrast = 2.0;  // [grey] below it a patch is noise
+constexpr double kGrey = 16.0;                  // pyramid units of one grey level
+constexpr double kLeastContrast = 2.0 * kGrey;  // below it a patch is noise
 // Steps shrink to a half or faster where the texture determines them: from 3 px to 0.1 px in five.
 constexpr int kMaxShiftIterations = 8;
 constexpr int kMaxAffineIterations = 12;
@@ -22,9 +22,9 @@ constexpr double kConverged = 0.01;
 constexpr double kMaxGain = 2.0;          // and its inverse: exposure steps of one stop
 constexpr double kTukey = 4.685;          // [σ] 95 % efficiency under Gaussian noise
 constexpr double kMeanAbsolute = 1.2533;  // σ of a normal variable over its mean absolute value
-// Noise of smoothed images is correlated between neighbours; what survives the sum over a window is
-// the noise before smoothing: 1 / Σ k² of the binomial 3×3 kernel. Every second row alone carries
-// half as much: each row of the image has the same weight in their sum, (1 + 1) / 4 or 2 / 4.
+// Smoothing correlates the noise of neighbours; what survives the sum over a window is the noise
+// before it: 1 / Σ k² of the binomial 3×3 kernel. Every second row alone carries half as much: each
+// row of the image has the same weight in their sum, (1 + 1) / 4 or 2 / 4.
 constexpr double kCorrelation = 256.0 / 36.0;
 
 double noise_share(const PatchWindow& window) {
@@ -118,10 +118,9 @@ double step(Problem<kTranslationParameters>& problem, PatchWarp& warp) {
   return shift.norm();
 }
 
-/// Steps until the next one would be small: steps shrink by about the same `rate` from one to the
-/// next, which the second round of a patch takes over from the first. True also when they are still
-/// shrinking at the end: the gates that follow decide. False when the window leaves the image or is
-/// torn.
+/// Steps until the next one would be small: steps shrink by about the same `rate`, which the second
+/// round of a patch takes over from the first. True also when they still shrink at the end: the
+/// gates that follow decide. False when the window leaves the image or is torn.
 template <std::size_t kCount>
 bool iterate(Problem<kCount>& problem, PatchWarp& warp, double converged, double& rate) {
   const double radius = static_cast<double>(problem.window().radius);
@@ -196,8 +195,7 @@ bool anchor_patch(const ImagePyramid& pyramid, std::size_t level, const PatchWin
   if (!grid) return false;
   simd_kernels<PatchKernels>().make_template(*grid, window, patch.patch);
   // Coarse levels average the texture away: there only what is blank is refused.
-  const double least = level == 0 ? kLeastContrast * kGrey : 0.5 * kLeastContrast * kGrey;
-  return static_cast<double>(patch.patch.contrast) >= least;
+  return static_cast<double>(patch.patch.contrast) >= (level == 0 ? 1.0 : 0.5) * kLeastContrast;
 }
 
 bool anchor_patch(const ImagePyramid& pyramid, std::size_t level, const PatchWindow& window,

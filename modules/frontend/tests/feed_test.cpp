@@ -27,6 +27,8 @@ mrpt::obs::CObservationImage::Ptr image_at(double time_s, const std::string& lab
   observation->sensorLabel = label;
   observation->image = grey_image(77);
   observation->cameraParams.setIntrinsicParamsFromValues(50.0, 51.0, 32.0, 24.0);
+  observation->cameraParams.ncols = 64;
+  observation->cameraParams.nrows = 48;
   observation->cameraPose = mrpt::poses::CPose3D(0.5, 0.0, 1.6, 0.0, 0.0, 0.0);  // x forward
   return observation;
 }

@@ -1,6 +1,5 @@
 // Feeds a rawlog to oneac::FrontEnd and prints the camera's final poses as TUM rows.
 //   consumer LOG.rawlog IMAGES_DIR [CAMERA_HEIGHT]
-#include <oneac/base/error.h>
 #include <oneac/frontend/front_end.h>
 
 #include <mrpt/img/CImage.h>
@@ -36,23 +35,6 @@ void feed_log(const char* log, oneac::FrontEnd& front_end) {
   }
 }
 
-int drive(const char* log, const oneac::FrontEndOptions& options) {
-  oneac::FrontEnd front_end(options);
-  front_end.logging_enable_console_output = false;  // the poses go there
-  int exit_code = 0;
-  try {
-    feed_log(log, front_end);
-  } catch (const oneac::InputError& error) {  // an image that cannot be used: what came before can
-    std::fprintf(stderr, "%s\n", error.what());
-    exit_code = 2;
-  }
-  front_end.finish();
-  for (const oneac::FramePose& pose : front_end.trajectory().poses()) print_pose(pose);
-  const std::size_t missing = front_end.fed().of(oneac::PassedOver::kMissing);
-  if (missing > 0) std::fprintf(stderr, "%zu images are not there\n", missing);
-  return exit_code;
-}
-
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -61,8 +43,14 @@ int main(int argc, char** argv) {
   oneac::FrontEndOptions options;
   if (argc > 3) options.camera_height = std::atof(argv[3]);
   try {
-    return drive(argv[1], options);
-  } catch (const std::exception& error) {  // options out of bounds, a log that MRPT cannot read
+    oneac::FrontEnd front_end(options);
+    front_end.logging_enable_console_output = false;  // the poses go there
+    feed_log(argv[1], front_end);
+    front_end.finish();
+    for (const oneac::FramePose& pose : front_end.trajectory().poses()) print_pose(pose);
+    const std::size_t missing = front_end.fed().of(oneac::PassedOver::kMissing);
+    if (missing > 0) std::fprintf(stderr, "%zu images are not there\n", missing);
+  } catch (const std::exception& error) {  // an image or log that cannot be used, options
     return std::fprintf(stderr, "%s\n", error.what()), 2;
   }
 }

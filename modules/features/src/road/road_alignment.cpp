@@ -2,12 +2,11 @@
 
 #include "../klt_track.h"
 #include "road_polish.h"
+#include "road_prior.h"
 #include "road_search.h"
 
 #include "oneac/base/require.h"
-#include "oneac/geometry/tangent_basis.h"
 
-#include <Eigen/Cholesky>
 #include <Eigen/Geometry>
 #include <Eigen/LU>
 
@@ -27,15 +26,8 @@ constexpr std::size_t kMostPeaks = 4;  // of the search that are polished and co
 constexpr double kPromising = 0.4;
 constexpr double kLeastUsable = 0.25;  // [-] of the strip
 constexpr int kLeastTextured = 3;      // blocks
-constexpr double kUnknownSigma = 0.2;  // [rad] of a motion about which nothing is said
 constexpr int kScoreStride = 2;        // lines along the road that judge rivals
-// [rad] a road is no plane: its slope over ten metres differs so much from that under the car
-// (KITTI 03: with 0.1° a quarter of the lengths are beyond two of their sigmas, with 0.3° a ninth).
-constexpr double kLeastPitchSigma = 0.006;
-constexpr double kSamePlace = 1.5;  // [search steps] nearer peaks are one
-
-using Matrix5d = Eigen::Matrix<double, 5, 5>;
-using Matrix65d = Eigen::Matrix<double, 6, 5>;
+constexpr double kSamePlace = 1.5;     // [search steps] nearer peaks are one
 
 /// The two views by their part: template and image.
 struct Problem {
@@ -44,57 +36,6 @@ struct Problem {
   Eigen::Matrix3d R_level_a;
   bool forward = true;  ///< the template is the second view, which sees road of the first nearer
 };
-
-/// Covariance of (w, direction in its tangent plane B) of T_2_1, with floors.
-Matrix5d motion_covariance(const RoadStep& step, const Eigen::Matrix<double, 3, 2>& B,
-                           const RoadAlignmentOptions& options) {
-  Matrix65d Q = Matrix65d::Zero();
-  Q.topLeftCorner<3, 3>().setIdentity();
-  Q.bottomRightCorner<3, 2>() = B;
-  Matrix5d information = Q.transpose() * step.information * Q;
-  information += Matrix5d::Identity() / (kUnknownSigma * kUnknownSigma);
-  Matrix5d covariance = information.ldlt().solve(Matrix5d::Identity());
-  const double turn = options.min_rotation_sigma, travel = options.min_direction_sigma;
-  covariance.diagonal().head<3>().array() += turn * turn;
-  covariance.diagonal().tail<2>().array() += travel * travel;
-  return covariance;
-}
-
-/// The same of RoadMotion's rotation and direction.
-Matrix5d in_view_b(const Matrix5d& covariance, const Eigen::Matrix3d& R,
-                   const Eigen::Vector3d& direction, const Eigen::Matrix<double, 3, 2>& B,
-                   bool forward) {
-  Matrix5d map = Matrix5d::Identity();
-  if (forward) {
-    map.topLeftCorner<3, 3>() = R.transpose();
-  } else {
-    map = -map;
-    map.bottomLeftCorner<2, 3>() = -B.transpose() * cross_matrix(direction);
-  }
-  return map * covariance * map.transpose();
-}
-
-RoadPrior make_prior(const RoadStep& step, bool forward, const Eigen::Vector3d& direction,
-                     const RoadAlignmentOptions& options) {
-  const Eigen::Matrix3d& R = step.T_2_1.R;
-  const Eigen::Matrix<double, 3, 2> B = tangent_basis(direction);
-  const Eigen::Matrix3d R_b_1 = forward ? Eigen::Matrix3d::Identity() : R;
-  const Eigen::Matrix3d R_b_level = R_b_1 * step.R_level_cam.transpose();
-  RoadPrior prior;
-  prior.start.R_b_a = forward ? Eigen::Matrix3d(R.transpose()) : R;
-  prior.start.s = forward ? Eigen::Vector3d(R.transpose() * direction) : -direction;
-  prior.start.n = R_b_level.col(1);
-  prior.tangents.normal << R_b_level.col(2), R_b_level.col(0);
-  prior.tangents.travel = forward ? Eigen::Matrix<double, 3, 2>(R.transpose() * B) : B;
-  prior.heave = options.heave;
-  const double pitch_sigma = std::max(step.pitch_sigma, kLeastPitchSigma);
-  prior.information(1, 1) = 1.0 / (pitch_sigma * pitch_sigma);
-  prior.information(2, 2) = 1.0 / (step.roll_sigma * step.roll_sigma);
-  const Matrix5d covariance =
-      in_view_b(motion_covariance(step, B, options), R, direction, B, forward);
-  prior.information.bottomRightCorner<5, 5>() = covariance.ldlt().solve(Matrix5d::Identity());
-  return prior;
-}
 
 Problem make_problem(const RoadImage& first, const RoadImage& second, const PinholeCamera& camera,
                      const RoadStep& step, const ImageView& mask,
@@ -276,47 +217,6 @@ void RoadAlignmentOptions::validate() const {
   require(height_sigma >= 0.0, "road.height_sigma", height_sigma, "not negative");
   positive(min_rotation_sigma, "road.min_rotation_sigma");
   positive(min_direction_sigma, "road.min_direction_sigma");
-}
-
-void RoadStep::validate() const {
-  require(T_2_1.is_finite() && T_2_1.t.norm() > 0.0, "step.T_2_1.t", T_2_1.t.norm(),
-          "finite and not zero");
-  require(R_level_cam.allFinite(), "step.R_level_cam", R_level_cam.sum(), "finite");
-  require(information.allFinite(), "step.information", information.sum(), "finite");
-  require(pitch_sigma > 0.0, "step.pitch_sigma", pitch_sigma, "positive");
-  require(roll_sigma > 0.0, "step.roll_sigma", roll_sigma, "positive");
-  require(std::isfinite(length), "step.length", length, "finite");
-  require(length_sigma > 0.0, "step.length_sigma", length_sigma, "positive");
-  require(min_length >= 0.0, "step.min_length", min_length, "not negative");
-  require(max_length >= min_length && max_length < 100.0, "step.max_length", max_length,
-          "min_length … 100");
-}
-
-Eigen::Matrix<double, 6, 6> motion_information(double rotation_sigma, double direction_sigma) {
-  Eigen::Matrix<double, 6, 6> information = Eigen::Matrix<double, 6, 6>::Zero();
-  information.diagonal().head<3>().setConstant(1.0 / (rotation_sigma * rotation_sigma));
-  information.diagonal().tail<3>().setConstant(1.0 / (direction_sigma * direction_sigma));
-  return information;
-}
-
-const char* to_string(RoadStatus status) {
-  switch (status) {
-    case RoadStatus::kMeasured:
-      return "measured";
-    case RoadStatus::kNoRoad:
-      return "no_road";
-    case RoadStatus::kNoTexture:
-      return "no_texture";
-    case RoadStatus::kNoCorrelation:
-      return "no_correlation";
-    case RoadStatus::kAmbiguous:
-      return "ambiguous";
-    case RoadStatus::kOutOfRange:
-      return "out_of_range";
-    case RoadStatus::kInconsistent:
-      return "inconsistent";
-  }
-  return "unknown";
 }
 
 RoadAlignment align_road(const RoadImage& first, const RoadImage& second,

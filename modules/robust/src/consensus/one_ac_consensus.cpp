@@ -48,7 +48,8 @@ RobustResult consensus_of_finite(AcSpan acs, const Eigen::Matrix3d& R_level_cam,
 
 void ConsensusOptions::validate() const {
   const bool some = std::find(pool.on.begin(), pool.on.end(), true) != pool.on.end();
-  require(some, std::string("consensus.") + SolverPool::key(0), 0, "true when no other solver is on");
+  require(some, std::string("consensus.") + SolverPool::key(0), 0,
+          "true when no other solver is on");
   require(threshold_px > 0.0, "consensus.threshold_px", threshold_px, "positive");
   require(pitch_sweep_deg >= 0.0 && pitch_sweep_deg <= 10.0, "consensus.pitch_sweep_deg",
           pitch_sweep_deg, "from 0 to 10");
