@@ -58,8 +58,8 @@ void KeyframeMap::begin_anew() {
 }
 
 std::optional<MapLengths> KeyframeMap::move(const FrameStamp& frame, const RelativePose& motion,
-                                            const TwoView& seen,
-                                            const Eigen::Matrix3d& R_level_cam) {
+                                            const TwoView& seen, const Eigen::Matrix3d& R_level_cam,
+                                            bool lengths_hold) {
   T_cam_map_ = orthonormalised(motion * T_cam_map_);
   newest_ = frame;
   ++frames_;
@@ -69,7 +69,7 @@ std::optional<MapLengths> KeyframeMap::move(const FrameStamp& frame, const Relat
   way_ = (T_cam_map_ * window_->keyframes().back().T_cam_map.inverse()).t.norm();
   window_->add_keyframe(frames_ - 1, T_cam_map_);
   keyframe_time_s_ = frame.time_s;
-  static_cast<void>(window_->refine(R_level_cam));
+  static_cast<void>(window_->refine(R_level_cam, lengths_hold));
   return MapLengths{window_->pair_with(1), window_->compare_depths(seen.pair)};
 }
 

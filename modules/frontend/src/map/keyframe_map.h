@@ -52,9 +52,11 @@ class KeyframeMap {
   /// the lengths that can be compared with others come out.
   /// @param motion       T_2_1, length as used
   /// @param R_level_cam  of the mounting: the car's planar motion is a prior of the window
+  /// @param lengths_hold  the steps since the last keyframe were measured, see LocalMap::refine()
   [[nodiscard]] std::optional<MapLengths> move(const FrameStamp& frame, const RelativePose& motion,
                                                const TwoView& seen,
-                                               const Eigen::Matrix3d& R_level_cam);
+                                               const Eigen::Matrix3d& R_level_cam,
+                                               bool lengths_hold = false);
   /// Ends the step.
   /// @param correction  when move() made a keyframe
   [[nodiscard]] FrameInMap settle(const std::optional<ScaleCorrection>& correction);

@@ -16,6 +16,8 @@ namespace {
 
 // A landmark whose depth is less certain than this carries no length.
 constexpr double kUsefulDepth = 0.3;
+// Measured steps are known to 3 to 6 %: an adjustment that changes one by more is wrong.
+constexpr double kMostStretch = 1.1;
 double relative_sigma(const Track& track) {
   return 1.0 / (std::sqrt(track.depth_information) * track.inverse_depth);
 }
@@ -124,7 +126,22 @@ void LocalMap::update_depth_information() {
   }
 }
 
-bool LocalMap::refine(const Eigen::Matrix3d& R_level_cam) {
+bool LocalMap::stretches(const std::vector<WindowView>& views) const {
+  const auto length = [](const RelativePose& b, const RelativePose& a) {
+    return (b.inverse().t - a.inverse().t).norm();
+  };
+  const double first_before = length(window_[1].T_cam_map, window_[0].T_cam_map);
+  const double first_after = length(views[1].T_view_map, views[0].T_view_map);
+  for (std::size_t i = 2; i < views.size(); ++i) {
+    const double before = length(window_[i].T_cam_map, window_[i - 1].T_cam_map) / first_before;
+    const double after = length(views[i].T_view_map, views[i - 1].T_view_map) / first_after;
+    // Not finite where the first step has no length: then nothing is compared.
+    if (after > kMostStretch * before || before > kMostStretch * after) return true;
+  }
+  return false;
+}
+
+bool LocalMap::refine(const Eigen::Matrix3d& R_level_cam, bool lengths_hold) {
   if (window_.size() < 2) return false;
   const double length =
       (window_[1].T_cam_map.inverse().t - window_[0].T_cam_map.inverse().t).norm();
@@ -133,6 +150,7 @@ bool LocalMap::refine(const Eigen::Matrix3d& R_level_cam) {
   exchange.window.focal_px = focal_px_;
   const WindowRefineResult result = refine_window(exchange.window, options_.refine);
   if (!result.usable) return false;
+  if (lengths_hold && stretches(exchange.window.views)) return false;
   take_back(exchange, window_, tracks_);
   triangulate_but(exchange.tracks);
   const double now = (window_[1].T_cam_map.inverse().t - window_[0].T_cam_map.inverse().t).norm();

@@ -41,7 +41,9 @@ class LocalMap {
   /// Makes the newest frame one, and landmarks of the tracks that it shares with older ones.
   void add_keyframe(std::size_t frame, const RelativePose& T_cam_map);
   /// Adjusts the window; true when it took part.
-  bool refine(const Eigen::Matrix3d& R_level_cam);
+  /// @param lengths_hold  the steps were measured: an adjustment that changes one by more than a
+  ///                      tenth was led astray (the bonnet, traffic, nothing near) and is left out
+  bool refine(const Eigen::Matrix3d& R_level_cam, bool lengths_hold = false);
   /// Depths of landmarks in the newest keyframe beside those measured otherwise.
   [[nodiscard]] std::vector<DepthComparison> compare_depths(const TrackedPair& step) const;
   /// Correspondences between the last keyframe and one before it.
@@ -64,6 +66,7 @@ class LocalMap {
  private:
   [[nodiscard]] const WindowKeyframe& keyframe(std::size_t id) const;
   [[nodiscard]] std::size_t position(std::size_t id) const { return id - window_.front().id; }
+  [[nodiscard]] bool stretches(const std::vector<WindowView>& views) const;
   void triangulate_new();
   void update_depth_information();
   void triangulate_but(const std::vector<std::uint64_t>& adjusted);

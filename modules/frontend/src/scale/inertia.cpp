@@ -52,9 +52,4 @@ void Inertia::tell(double begin_s, double end_s, double length, double sigma) {
   time_s_ = 0.5 * (begin_s + end_s);
 }
 
-void Inertia::rescale(double factor) {
-  speed_ *= factor;
-  sigma_ *= factor;
-}
-
 }  // namespace oneac

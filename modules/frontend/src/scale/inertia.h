@@ -29,8 +29,6 @@ class Inertia {
   [[nodiscard]] std::optional<ExpectedLength> expect(double begin_s, double end_s) const;
   /// A step was this long, 1σ, both [m].
   void tell(double begin_s, double end_s, double length, double sigma);
-  /// Lengths turned out to be so many times as long.
-  void rescale(double factor);
   void forget() { known_ = false; }
 
  private:

@@ -267,7 +267,6 @@ ScaleCorrection Scale::correct(const MapLengths& map, const Levelling& first, do
   needs_road_image_ = metres_ == LengthSource::kRoad && correction.ground_acs == 0;
   interval_ = {};
   speeds_.rescale(correction.factor);
-  inertia_.rescale(correction.factor);
   correction.metric = filter_.is_metric();
   correction.sigma = filter_.uncertainty();
   return correction;

@@ -61,6 +61,8 @@ class Scale {
   [[nodiscard]] std::optional<ExpectedLength> expected(double begin_s, double end_s) const {
     return inertia_.expect(begin_s, end_s);
   }
+  /// Every step since the last keyframe was measured.
+  [[nodiscard]] bool lengths_hold() const { return interval_.whole || filter_.is_metric(); }
   /// Road and map have contradicted each other for too long: the map should begin anew.
   [[nodiscard]] bool map_is_refuted() const { return conflicts_ >= kPatience; }
   /// The length of the step, which is then remembered as the newest.
