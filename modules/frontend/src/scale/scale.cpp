@@ -144,8 +144,10 @@ StepLength Scale::decided(const StepInTime& step,
   if (const StepLength road = by_road_image(step); road.metric) told.push_back(road);
   const StepLength result = chosen(told, step);
   if (result.metric) return result;
-  // The unit of a map without scale goes on.
-  if (!told.empty() && told.front().source == LengthSource::kMap && !filter_.is_metric()) {
+  // The unit of a map without scale goes on while nobody knows a speed in metres.
+  const bool unscaled_map =
+      !told.empty() && told.front().source == LengthSource::kMap && !filter_.is_metric();
+  if (unscaled_map && !inertia_.expect(step.begin_s, step.end_s)) {
     StepLength unscaled = told.front();
     unscaled.sigma = unscaled.sigma_m = 0.0;
     return unscaled;
