@@ -18,6 +18,8 @@ constexpr double kLeastExpectedSigma = 0.03;  // [heights]
 // [heights] Two views that saw a translation saw more than this, unless the car creeps: then what
 // keeps its place in the picture is the bonnet, or dirt, and no road.
 constexpr double kBeyond = 3.0;  // [σ]
+// [heights] what keeps its place on glass and sensor pulls a length of less than a pixel.
+constexpr double kLeastSigma = 0.003;
 constexpr double kMoving = 0.05, kCreeping = 0.15;
 
 double rms(const Eigen::Matrix3d& covariance, double unknown) {
@@ -63,8 +65,10 @@ std::optional<RoadTravel> road_travel(const RoadPair& road, const TwoView& seen,
   if (aligned.length < step.min_length - reach || aligned.length > step.max_length + reach) {
     return std::nullopt;
   }
+  // Two views saw a translation: a road that rests contradicts them, and one of the two is wrong.
+  if (directed && aligned.length < reach) return std::nullopt;
   const double unit = prior.camera_height > 0.0 ? prior.camera_height : 1.0;
-  return RoadTravel{aligned.length * unit, aligned.sigma * unit};
+  return RoadTravel{aligned.length * unit, std::max(aligned.sigma, kLeastSigma) * unit};
 }
 
 }  // namespace oneac

@@ -22,7 +22,7 @@ struct InitialiserInput {
   Eigen::Matrix3d R_level_cam = Eigen::Matrix3d::Identity();  ///< removes the camera's tilt
   double focal_px = 1.0;                                      ///< [px] of one normalised unit
   std::uint64_t seed = 0;  ///< of methods that draw random samples
-  MotionPrior prior;       ///< what inertia and sensors let expect; default: nothing
+  MotionPrior prior = {};  ///< what inertia and sensors let expect; default: nothing
 };
 
 /// What it answers: status, pose in the camera frame (|t| = 1, or 0 when the camera stood),
