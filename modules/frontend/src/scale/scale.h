@@ -81,6 +81,8 @@ class Scale {
 
  private:
   static constexpr int kPatience = 5;  ///< steps in a row
+  /// [σ] Two lengths of one step that are farther apart contradict each other.
+  static constexpr double kContradiction = 4.0;
 
   /// Since the last keyframe: the way as others than the map tell it.
   struct Interval {

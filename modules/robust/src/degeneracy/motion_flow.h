@@ -33,6 +33,12 @@ struct Flow {
                                       const std::vector<double>& sigmas,
                                       const Eigen::Matrix3d& R_level_cam, double sigma);
 
+constexpr float kDissents = 4.0F;  ///< [sigmas] along the line, beyond noise
+constexpr float kAgrees = 3.0F;    ///< [sigmas] across it
+
+/// Whether the dissenting points spread over less of the picture than all of them.
+[[nodiscard]] bool is_narrow(const std::vector<Flow>& flows);
+
 /// What the points say of one direction of travel.
 struct MotionScore {
   double gain = 0.0;       ///< cost at rest minus cost under the translation [nats]
