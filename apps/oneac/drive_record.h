@@ -1,5 +1,6 @@
 #pragma once
 
+#include "oneac/base/image.h"
 #include "oneac/evaluation/relative_poses_io.h"
 #include "oneac/evaluation/trajectory_io.h"
 #include "oneac/frontend/front_end.h"
@@ -26,6 +27,7 @@ struct DriveRecord {
   double scale_uncertainty = 0.0;  ///< relative 1σ of the map's lengths at the end
   Tilt tilt;                       ///< as believed at the end
   double camera_height = 0.0;      ///< [m] in use; 0: none
+  GreyImage car_mask;              ///< FrontEnd::car_mask() at the end
   SourceReport source;
   std::size_t out_of_order = 0;  ///< images left out: not later than the one before
   bool interrupted = false;
