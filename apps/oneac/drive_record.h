@@ -27,7 +27,8 @@ struct DriveRecord {
   Tilt tilt;                       ///< as believed at the end
   double camera_height = 0.0;      ///< [m] in use; 0: none
   SourceReport source;
-  std::size_t out_of_order = 0;  ///< images left out: not later than the one before
+  std::vector<std::string> setup_faults;  ///< of camera and log, at the end: nothing is in metres
+  std::size_t out_of_order = 0;           ///< images left out: not later than the one before
   bool interrupted = false;
   std::string failure;  ///< one line when an image stopped the run early, else ""
 
@@ -35,6 +36,8 @@ struct DriveRecord {
   [[nodiscard]] bool has_scale() const;
   /// Takes over what has become final.
   void take(Settled settled);
+  /// Nothing is in metres, the steps before the fault was found neither.
+  void withdraw_metres();
   /// The camera on the vehicle: as the log says, with the pitch and roll of `tilt`.
   [[nodiscard]] Eigen::Isometry3d mount() const;
   /// Camera trajectory of the keyframes.

@@ -145,6 +145,10 @@ class Drive {
     record_.tilt_belief = front_end_.tilt_belief();
     record_.scale_uncertainty = front_end_.scale_uncertainty();
     record_.camera_height = front_end_.camera_height();
+    record_.setup_faults = front_end_.setup_faults();
+    const std::string& names = record_.source.names_out_of_order;
+    if (!names.empty()) record_.setup_faults.push_back(names);
+    if (!record_.setup_faults.empty()) record_.withdraw_metres();
   }
 
   const RunOptions& options_;

@@ -91,12 +91,14 @@ std::vector<std::string> notes_about(const DriveRecord& record) {
     notes.push_back(std::to_string(record.out_of_order) +
                     " images do not lie after the one before in time and were left out");
   }
-  if (!record.has_scale() && record.frames.size() > 1) {
+  notes.insert(notes.end(), record.setup_faults.begin(), record.setup_faults.end());
+  const bool told = !record.setup_faults.empty();
+  if (!told && !record.has_scale() && record.frames.size() > 1) {
     notes.emplace_back(
         record.camera_height > 0.0
             ? "the road was nowhere seen well enough to measure by, so nothing is in metres"
-            : "neither the height of the camera nor a speed is known, so nothing is in metres; set "
-              "front_end.camera_height, or front_end.scale.source: gps");
+            : "neither the height of the camera nor a speed is known, so nothing is in metres; "
+              "give --camera-height, or set front_end.scale.source: gps");
   }
   const auto predicted =
       std::count_if(record.frames.begin(), record.frames.end(), [](const FrameResult& frame) {

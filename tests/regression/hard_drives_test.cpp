@@ -176,8 +176,10 @@ Verdict verdict_on(const Row& row) {
   std::vector<std::string> simulate = {ONEAC_PROGRAM, "simulate", "-o", drive, "--no-progress"};
   simulate.insert(simulate.end(), row.simulate.begin(), row.simulate.end());
   EXPECT_EQ(run_program(simulate).exit_code, 0);
-  const ProgramResult run =
-      run_program({ONEAC_PROGRAM, "run", drive + "/simulated.rawlog", "-o", out, "--no-progress"});
+  std::vector<std::string> words = {ONEAC_PROGRAM, "run", drive + "/simulated.rawlog",
+                                    "-o",          out,   "--no-progress"};
+  words.insert(words.end(), row.run.begin(), row.run.end());
+  const ProgramResult run = run_program(words);
   Verdict verdict;
   verdict.exit_code = run.exit_code;
   verdict.notes = run.err;

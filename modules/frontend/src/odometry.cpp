@@ -72,6 +72,7 @@ FrameResult Odometry::start(const CameraFrame& frame) {
   newest_ = stamp_of(frame);
   attitude_.start(frame.T_vehicle_cam.linear());
   scale_.start(frame);
+  setup_.start(frame);
   return frame_result(newest_, map_.start(newest_, frame.camera.focal_px()), attitude_);
 }
 
@@ -95,8 +96,9 @@ FrameResult Odometry::integrate(const FrameStamp& now, const TwoView& seen) {
   const MapLink link = map_.link(seen);
   if (link.began_anew) scale_.restart(before.time_s);
   const auto told = scale_.measure(seen, link.carried, attitude_.now());
-  const StepLength length =
-      scale_.length_of({seen.status, before.time_s, now.time_s, last_motion_}, told);
+  setup_.follow(seen, attitude_.now().R_level_cam);
+  const StepLength length = setup_.checked(
+      scale_.length_of({seen.status, before.time_s, now.time_s, last_motion_}, told));
   const StepResult step = step_result(before, now, seen, length, map_.segment());
   attitude_.follow(step);
   const RelativePose motion = motion_of(step);
@@ -109,7 +111,8 @@ FrameResult Odometry::integrate(const FrameStamp& now, const TwoView& seen) {
 std::optional<ScaleCorrection> Odometry::scale_correction(const std::optional<MapLengths>& lengths,
                                                           double focal_px) {
   if (!lengths) return std::nullopt;
-  return scale_.correct(*lengths, attitude_.before(lengths->newest.T_2_1.R), focal_px);
+  return setup_.checked(
+      scale_.correct(*lengths, attitude_.before(lengths->newest.T_2_1.R), focal_px));
 }
 
 std::optional<RelativePose> Odometry::expected() const {
