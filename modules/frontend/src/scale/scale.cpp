@@ -4,6 +4,7 @@
 
 #include "oneac/frontend/front_end_options.h"
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
@@ -15,6 +16,9 @@ namespace {
 constexpr double kLowestMount = 0.5;
 // [m/s] Plausible speeds of a car, 250 km/h; a length beyond is refused as metric.
 constexpr double kFastestCar = 70.0;
+// [m] 1σ of a short step that is as good as standing: what is far more than this in proportion to a
+// creep of centimetres does not make the drive less certain.
+constexpr double kSureWay = 0.01;
 // [m] first step of a car that moves off, for want of better; the road corrects it.
 constexpr double kFirstStep = 0.05;
 
@@ -31,6 +35,7 @@ Scale::Scale(const FrontEndOptions& options)
     : metres_(source_of_metres(options.scale)),
       given_height_(options.camera_height),
       max_hold_(options.max_hold),
+      max_uncertainty_(options.scale.max_uncertainty),
       least_depths_(static_cast<std::size_t>(options.window.min_carry)),
       filter_(options.scale),
       road_(options.ground_scale, options.consensus.threshold_px) {}
@@ -98,13 +103,17 @@ StepLength Scale::decided(const StepInTime& step,
   return result;
 }
 
+double Scale::allowed_sigma(double length) const {
+  return std::max(max_uncertainty_, kSureWay / std::max(length, kSureWay));
+}
+
 StepLength Scale::stated(const LengthMeasurement& measured) const {
   StepLength result;
   result.length = measured.length;
   result.source = measured.source;
   if (measured.source == LengthSource::kMap) {
     result.sigma = std::hypot(measured.sigma, filter_.uncertainty());
-    result.metric = filter_.is_metric();
+    result.metric = filter_.is_metric() && result.sigma <= allowed_sigma(result.length);
     result.landmarks = measured.support;
   } else {
     result.sigma = measured.sigma;

@@ -64,6 +64,8 @@ class Scale {
   [[nodiscard]] StepLength decided(const StepInTime& step,
                                    const std::vector<LengthMeasurement>& measured) const;
   [[nodiscard]] StepLength stated(const LengthMeasurement& measured) const;
+  /// Relative 1σ up to which a length counts as metric.
+  [[nodiscard]] double allowed_sigma(double length) const;
   [[nodiscard]] double held_length(const StepInTime& step) const;
   [[nodiscard]] std::vector<ScaleMeasurement> measure(const MapLengths& map, const Levelling& first,
                                                       double focal_px);
@@ -72,9 +74,10 @@ class Scale {
                                                         double focal_px) const;
   [[nodiscard]] std::optional<ScaleMeasurement> by_speed();
 
-  LengthSource metres_;  ///< where the map's metres come from; kNone: from nowhere
-  double given_height_;  ///< [m] of the camera above the road; 0: not given
-  double max_hold_;      ///< [s]
+  LengthSource metres_;     ///< where the map's metres come from; kNone: from nowhere
+  double given_height_;     ///< [m] of the camera above the road; 0: not given
+  double max_hold_;         ///< [s]
+  double max_uncertainty_;  ///< relative 1σ of a length that counts as metric
   std::size_t least_depths_;
   ScaleFilter filter_;
   RoadLength road_;
