@@ -41,12 +41,13 @@ void write_all(const DriveRecord& record, RunOptions& options, double wall_secon
   const std::string summary = summary_json(record, evaluation, options, wall_seconds);
   write_file_atomically(folder / "summary.json", summary);
   write_file_atomically(folder / "report.html", report_html(record, evaluation, options, summary));
-  std::cout << summary_text(record, evaluation) << "written to " << options.output
-            << ": trajectory_camera.kitti, trajectory_camera.tum, trajectory_vehicle.tum, "
-               "relative_poses.csv, tilt.csv, timings.csv, summary.json, report.html, params.yaml"
-            << (record.keyframes.empty()
-                    ? "\n"
-                    : ", keyframes.tum, graph.g2o, map.simplemap, points.ply\n");
+  std::cout
+      << summary_text(record, evaluation) << "written to " << options.output
+      << ": trajectory_camera.kitti, trajectory_camera.tum, trajectory_vehicle.tum, "
+         "relative_poses.csv, covariance.csv, tilt.csv, timings.csv, summary.json, report.html, "
+         "params.yaml"
+      << (record.keyframes.empty() ? "\n"
+                                   : ", keyframes.tum, graph.g2o, map.simplemap, points.ply\n");
 }
 
 void run(RunFlags& flags) {

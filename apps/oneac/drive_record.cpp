@@ -1,5 +1,7 @@
 #include "drive_record.h"
 
+#include "oneac/frontend/trajectory_uncertainty.h"
+
 #include <algorithm>
 #include <iterator>
 #include <utility>
@@ -78,6 +80,21 @@ std::vector<RelativePoseRow> DriveRecord::relative_poses() const {
     row.inliers = static_cast<int>(step.inliers);
     row.acs = static_cast<int>(step.acs);
     row.status = to_string(step.status);
+    row.sigma_length = sigma_of_length(step);
+    rows.push_back(row);
+  }
+  return rows;
+}
+
+std::vector<CovarianceRow> DriveRecord::covariances() const {
+  const auto positions = position_covariances(frames, common_length_sigma);
+  const bool scaled = has_scale();
+  std::vector<CovarianceRow> rows;
+  for (std::size_t i = 0; i < frames.size(); ++i) {
+    if (!frames[i].step) continue;
+    const StepResult& step = *frames[i].step;
+    CovarianceRow row{step.index1, step.index2, step.covariance, std::nullopt};
+    if (scaled) row.position_sigma = positions[i].diagonal().cwiseMax(0.0).cwiseSqrt();
     rows.push_back(row);
   }
   return rows;

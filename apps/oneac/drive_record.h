@@ -1,5 +1,6 @@
 #pragma once
 
+#include "oneac/evaluation/covariance_io.h"
 #include "oneac/evaluation/relative_poses_io.h"
 #include "oneac/evaluation/trajectory_io.h"
 #include "oneac/frontend/front_end.h"
@@ -21,11 +22,12 @@ struct DriveRecord {
   std::vector<double> decode_ms;    ///< one per frame
   Eigen::Isometry3d T_vehicle_cam = CameraFrame::forward_looking_mount();  ///< as the log says
   PinholeCamera camera;
-  Tilt given_tilt;                 ///< from the log or the parameters
-  TiltBelief tilt_belief;          ///< with its 1σ, at the end
-  double scale_uncertainty = 0.0;  ///< relative 1σ of the map's lengths at the end
-  Tilt tilt;                       ///< as believed at the end
-  double camera_height = 0.0;      ///< [m] in use; 0: none
+  Tilt given_tilt;                   ///< from the log or the parameters
+  TiltBelief tilt_belief;            ///< with its 1σ, at the end
+  double scale_uncertainty = 0.0;    ///< relative 1σ of the map's lengths at the end
+  double common_length_sigma = 0.0;  ///< relative 1σ of length that all steps share
+  Tilt tilt;                         ///< as believed at the end
+  double camera_height = 0.0;        ///< [m] in use; 0: none
   SourceReport source;
   std::size_t out_of_order = 0;  ///< images left out: not later than the one before
   bool interrupted = false;
@@ -45,6 +47,7 @@ struct DriveRecord {
   /// with the pitch and roll of `tilt`.
   [[nodiscard]] Trajectory vehicle_trajectory() const;
   [[nodiscard]] std::vector<RelativePoseRow> relative_poses() const;
+  [[nodiscard]] std::vector<CovarianceRow> covariances() const;
   [[nodiscard]] std::vector<TimingRow> timings() const;
 };
 

@@ -133,6 +133,8 @@ class Drive {
 
   void remember_mounting(const CameraFrame& first) {
     record_.T_vehicle_cam = first.T_vehicle_cam;
+    const ScaleOptions& scale = options_.front_end.scale;
+    if (scale.source == "height") record_.common_length_sigma = scale.road_uncertainty;
     record_.camera = first.camera;
   }
 

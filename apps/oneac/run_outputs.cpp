@@ -58,6 +58,7 @@ void write_drive(const DriveRecord& record, const std::filesystem::path& folder)
   write_file_atomically(folder / "trajectory_vehicle.tum", format_tum(record.vehicle_trajectory()));
   write_file_atomically(folder / "relative_poses.csv",
                         format_relative_poses(record.relative_poses()));
+  write_file_atomically(folder / "covariance.csv", format_covariances(record.covariances()));
   write_file_atomically(folder / "tilt.csv", format_tilts(record.frames));
   if (!record.keyframes.empty()) write_map(record, folder);
   write_file_atomically(folder / "timings.csv", format_timings(record.timings()));

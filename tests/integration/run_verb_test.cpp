@@ -43,7 +43,10 @@ TEST_F(RunVerb, WritesTheColumnsThatOthersScriptAgainst) {
   const fs::path out = run("a");
   const auto first_line = [](const std::string& text) { return text.substr(0, text.find('\n')); };
   EXPECT_EQ(first_line(read_file(out / "relative_poses.csv")),
-            "index1,index2,t1,t2,qw,qx,qy,qz,tx,ty,tz,metric,inliers,acs,status");
+            "index1,index2,t1,t2,qw,qx,qy,qz,tx,ty,tz,metric,inliers,acs,status,sigma_length");
+  EXPECT_EQ(first_line(read_file(out / "covariance.csv")),
+            "index1,index2,c00,c01,c02,c03,c04,c05,c11,c12,c13,c14,c15,c22,c23,c24,c25,c33,c34,c35,"
+            "c44,c45,c55,sigma_x,sigma_y,sigma_z");
   EXPECT_EQ(first_line(read_file(out / "tilt.csv")),
             "index,time,pitch_up_deg,pitch_sigma_deg,roll_right_deg,roll_sigma_deg,"
             "suspension_pitch_deg,suspension_sigma_deg");

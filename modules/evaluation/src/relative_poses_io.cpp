@@ -11,6 +11,7 @@
 #include <array>
 #include <cmath>
 #include <fstream>
+#include <limits>
 #include <optional>
 #include <stdexcept>
 #include <string_view>
@@ -18,9 +19,11 @@
 namespace oneac {
 namespace {
 
-constexpr std::array<std::string_view, 15> kColumns{"index1", "index2", "t1",      "t2",  "qw",
-                                                    "qx",     "qy",     "qz",      "tx",  "ty",
-                                                    "tz",     "metric", "inliers", "acs", "status"};
+constexpr std::array<std::string_view, 16> kColumns{
+    "index1", "index2", "t1", "t2",     "qw",      "qx",  "qy",     "qz",
+    "tx",     "ty",     "tz", "metric", "inliers", "acs", "status", "sigma_length"};
+constexpr std::size_t kRequired = 15;  // files from before had no sigma_length
+constexpr auto kNowhere = std::numeric_limits<std::size_t>::max();
 constexpr double kUnitTolerance = 1e-3;  // four digits of a quaternion are enough to be one
 
 std::string header() {
@@ -36,6 +39,8 @@ ColumnPlaces find_columns(const TextLine& line, const std::string& file) {
   ColumnPlaces places{};
   for (std::size_t c = 0; c < kColumns.size(); ++c) {
     const auto found = std::find(names.begin(), names.end(), kColumns[c]);
+    places[c] = kNowhere;
+    if (found == names.end() && c >= kRequired) continue;
     if (found == names.end()) {
       throw InputError(where_in(file, line.number), "no column '" + std::string(kColumns[c]) + "'",
                        "the first line must be " + header());
@@ -50,16 +55,21 @@ class Fields {
  public:
   Fields(const TextLine& line, const ColumnPlaces& places, const std::string& file)
       : fields_(split_at_commas(line.text)), places_(places), where_(where_in(file, line.number)) {
-    const std::size_t needed = *std::max_element(places.begin(), places.end()) + 1;
+    std::size_t needed = 0;
+    for (const std::size_t place : places) {
+      if (place != kNowhere) needed = std::max(needed, place + 1);
+    }
     if (fields_.size() >= needed) return;
     throw InputError(where_,
                      std::to_string(fields_.size()) + " fields, needs " + std::to_string(needed),
                      "write the file again, or remove the line when it was cut");
   }
 
+  /// Empty for a column that the file does not have.
   [[nodiscard]] std::string_view text(std::string_view column) const {
-    const auto place = std::find(kColumns.begin(), kColumns.end(), column) - kColumns.begin();
-    return fields_[places_[static_cast<std::size_t>(place)]];
+    const auto at = std::find(kColumns.begin(), kColumns.end(), column) - kColumns.begin();
+    const std::size_t place = places_[static_cast<std::size_t>(at)];
+    return place == kNowhere ? std::string_view{} : fields_[place];
   }
   [[nodiscard]] double real(std::string_view column) const {
     const auto value = parse_finite(text(column));
@@ -100,6 +110,14 @@ bool parse_flag(const Fields& fields, std::string_view column) {
   return text == "1";
 }
 
+std::optional<double> parse_sigma(const Fields& fields) {
+  constexpr std::string_view kColumn = "sigma_length";
+  if (fields.text(kColumn).empty()) return std::nullopt;
+  const double sigma = fields.real(kColumn);
+  if (sigma < 0.0) fields.fail(kColumn, "empty or at least 0");
+  return sigma;
+}
+
 RelativePoseRow parse_row(const Fields& fields) {
   RelativePoseRow row;
   row.index1 = fields.integer<std::size_t>("index1");
@@ -112,6 +130,7 @@ RelativePoseRow parse_row(const Fields& fields) {
   row.acs = fields.integer<int>("acs");
   row.status = std::string(fields.text("status"));
   if (row.status.find('\r') != std::string::npos) fields.fail("status", "without a line break");
+  row.sigma_length = parse_sigma(fields);
   return row;
 }
 
@@ -120,6 +139,10 @@ void require_writable(const RelativePoseRow& row) {
                             std::to_string(row.index2);
   if (!row.T_2_1.is_finite() || !std::isfinite(row.t1) || !std::isfinite(row.t2)) {
     throw std::invalid_argument(where + ": T_2_1, t1 and t2 must be finite");
+  }
+  const double sigma = row.sigma_length.value_or(0.0);
+  if (!std::isfinite(sigma) || sigma < 0.0) {
+    throw std::invalid_argument(where + ": sigma_length must be finite and at least 0");
   }
   if (row.status.find_first_of(",\r\n") != std::string::npos) {
     throw std::invalid_argument(where + ": status must not have a comma or a line break");
@@ -135,7 +158,8 @@ std::string row_text(const RelativePoseRow& row) {
                      exact_fixed_text(row.t2, kTimeDecimals);
   for (double v : {q.w(), q.x(), q.y(), q.z(), t.x(), t.y(), t.z()}) line += ',' + exact_text(v);
   return line + (row.metric ? ",1," : ",0,") + std::to_string(row.inliers) + ',' +
-         std::to_string(row.acs) + ',' + row.status + '\n';
+         std::to_string(row.acs) + ',' + row.status + ',' +
+         (row.sigma_length ? exact_text(*row.sigma_length) : "") + '\n';
 }
 
 }  // namespace

@@ -11,6 +11,8 @@ namespace oneac {
 namespace {
 
 const std::string kHeader = "index1,index2,t1,t2,qw,qx,qy,qz,tx,ty,tz,metric,inliers,acs,status\n";
+const std::string kHeaderNow =
+    "index1,index2,t1,t2,qw,qx,qy,qz,tx,ty,tz,metric,inliers,acs,status,sigma_length\n";
 const std::string kRow = "4,6,10.0,10.2,1,0,0,0,0,0,-1,1,30,40,ok\n";
 
 std::vector<RelativePoseRow> random_rows(int count) {
@@ -27,6 +29,7 @@ std::vector<RelativePoseRow> random_rows(int count) {
     row.inliers = k;
     row.acs = 2 * k;
     row.status = k % 2 == 0 ? "ok" : "few_acs";
+    if (row.metric) row.sigma_length = 0.01 + 1.0 / (k + 3);
     rows.push_back(row);
   }
   return rows;
@@ -59,7 +62,25 @@ TEST_F(RelativePosesFile, RoundTripKeepsEveryField) {
     EXPECT_EQ(read[k].inliers, written[k].inliers);
     EXPECT_EQ(read[k].acs, written[k].acs);
     EXPECT_EQ(read[k].status, written[k].status);
+    EXPECT_EQ(read[k].sigma_length, written[k].sigma_length);
   }
+}
+
+TEST_F(RelativePosesFile, FilesFromBeforeTheSigmaAreRead) {
+  const auto rows = read_relative_poses(file(kHeader + kRow));
+  ASSERT_EQ(rows.size(), 1U);
+  EXPECT_EQ(rows[0].status, "ok");
+  EXPECT_FALSE(rows[0].sigma_length.has_value());
+}
+
+TEST_F(RelativePosesFile, RefusesANegativeSigma) {
+  EXPECT_NE(error(kHeaderNow + "4,6,10.0,10.2,1,0,0,0,0,0,-1,1,30,40,ok,-0.1\n")
+                .find("sigma_length is '-0.1'"),
+            std::string::npos);
+}
+
+TEST_F(RelativePosesFile, ALineCutBeforeTheSigmaIsRefused) {
+  EXPECT_NE(error(kHeaderNow + kRow).find("15 fields, needs 16"), std::string::npos);
 }
 
 TEST(FormatRelativePoses, WritesTheDocumentedColumns) {
@@ -72,10 +93,16 @@ TEST(FormatRelativePoses, WritesTheDocumentedColumns) {
   row.acs = 9;
   row.status = "ok";
   EXPECT_EQ(format_relative_poses({row}),
-            kHeader + "0,1,0.000000,0.100000,1,0,0,0,0,0,-0.5,1,7,9,ok\n");
+            kHeaderNow + "0,1,0.000000,0.100000,1,0,0,0,0,0,-0.5,1,7,9,ok,\n");
+  row.sigma_length = 0.25;
+  EXPECT_EQ(format_relative_poses({row}),
+            kHeaderNow + "0,1,0.000000,0.100000,1,0,0,0,0,0,-0.5,1,7,9,ok,0.25\n");
 }
 
 TEST(FormatRelativePoses, RefusesWhatCannotBeRead) {
+  auto sigmas = random_rows(1);
+  sigmas[0].sigma_length = -1.0;
+  EXPECT_THROW((void)format_relative_poses(sigmas), std::invalid_argument);
   auto rows = random_rows(1);
   rows[0].status = "too, few";
   EXPECT_THROW((void)format_relative_poses(rows), std::invalid_argument);

@@ -9,6 +9,9 @@ namespace {
 
 // [m/s] Plausible speeds of a car, 250 km/h; a length beyond is refused as metric.
 constexpr double kFastestCar = 70.0;
+// [m] 1σ of a short step that is as good as standing: what is far more than this in proportion to a
+// creep of centimetres does not make the drive less certain.
+constexpr double kSureWay = 0.01;
 // [m] first step of a car that moves off, for want of better; the road corrects it.
 constexpr double kFirstStep = 0.05;
 // A camera at rest: the road moves by less than this [σ], and less than this [m].
@@ -119,9 +122,14 @@ StepLength Scale::at_rest(const StepInTime& step) const {
   if (expected && expected->least > kStillness) return held(step);
   // Nobody saw the road: zero is believed of a car that was nearly there.
   const bool could_stand = expected && expected->length <= kMoves * expected->sigma + kStillness;
-  result.metric = could_stand || (step.near_identical && !expected);
-  if (result.metric) result.sigma_m = expected ? expected->sigma : kStillness;
+  // Without a speed even identical images are no rest: a truck that fills them goes as we do.
+  result.metric = could_stand;
+  if (result.metric) result.sigma_m = expected->sigma;
   return result;
+}
+
+double Scale::allowed_sigma(double length) const {
+  return std::max(max_uncertainty_, kSureWay / std::max(length, kSureWay));
 }
 
 StepLength Scale::stated(const LengthMeasurement& measured) const {
@@ -130,7 +138,7 @@ StepLength Scale::stated(const LengthMeasurement& measured) const {
   result.source = measured.source;
   if (measured.source == LengthSource::kMap) {
     result.sigma = std::hypot(measured.sigma, filter_.uncertainty());
-    result.metric = filter_.is_metric();
+    result.metric = filter_.is_metric() && result.sigma <= allowed_sigma(result.length);
     result.landmarks = measured.support;
   } else {
     result.sigma = measured.sigma;

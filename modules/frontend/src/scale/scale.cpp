@@ -29,10 +29,10 @@ Scale::Scale(const FrontEndOptions& options)
     : metres_(source_of_metres(options.scale)),
       given_height_(options.camera_height),
       max_hold_(options.max_hold),
+      max_uncertainty_(options.scale.max_uncertainty),
       least_depths_(static_cast<std::size_t>(options.window.min_carry)),
       filter_(options.scale),
       road_(options.ground_scale, options.consensus.threshold_px),
-      max_uncertainty_(options.scale.max_uncertainty),
       inertia_(options.scale, options.max_hold) {}
 
 void Scale::start(const CameraFrame& first) {

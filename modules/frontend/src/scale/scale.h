@@ -101,6 +101,8 @@ class Scale {
   void remember(const StepInTime& step, const StepLength& length);
   [[nodiscard]] std::optional<ScaleMeasurement> by_interval(const KeyframePair& pair) const;
   [[nodiscard]] StepLength stated(const LengthMeasurement& measured) const;
+  /// Relative 1σ up to which a length counts as metric.
+  [[nodiscard]] double allowed_sigma(double length) const;
   [[nodiscard]] double held_length(const StepInTime& step) const;
   [[nodiscard]] std::vector<ScaleMeasurement> measure(const MapLengths& map, const Levelling& first,
                                                       double focal_px);
@@ -109,9 +111,10 @@ class Scale {
                                                         double focal_px) const;
   [[nodiscard]] std::optional<ScaleMeasurement> by_speed();
 
-  LengthSource metres_;  ///< where the map's metres come from; kNone: from nowhere
-  double given_height_;  ///< [m] of the camera above the road; 0: not given
-  double max_hold_;      ///< [s]
+  LengthSource metres_;     ///< where the map's metres come from; kNone: from nowhere
+  double given_height_;     ///< [m] of the camera above the road; 0: not given
+  double max_hold_;         ///< [s]
+  double max_uncertainty_;  ///< relative 1σ of a length that counts as metric
   std::size_t least_depths_;
   ScaleFilter filter_;
   RoadLength road_;
@@ -119,7 +122,6 @@ class Scale {
   double carried_variance_ = 0.0;   ///< relative, of what landmarks carried since the last keyframe
   double last_metric_speed_ = 0.0;  ///< [m/s]
   double last_metric_time_ = 0.0;   ///< [s]
-  double max_uncertainty_;
   Inertia inertia_;
   Interval interval_;
   bool needs_road_image_ = true;  ///< the road's corners did not measure the last keyframe

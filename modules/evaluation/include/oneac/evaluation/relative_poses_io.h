@@ -4,6 +4,7 @@
 
 #include <cstddef>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -18,8 +19,9 @@ struct RelativePoseRow {
   RelativePose T_2_1;   ///< X2 = R X1 + t, camera optical frame
   bool metric = false;  ///< t in metres; otherwise of unit length, or zero
   int inliers = 0;
-  int acs = 0;         ///< affine correspondences found
-  std::string status;  ///< one word, e.g. "ok"
+  int acs = 0;                         ///< affine correspondences found
+  std::string status;                  ///< one word, e.g. "ok"
+  std::optional<double> sigma_length;  ///< [m] 1σ of the length; empty where not metric
 };
 
 /// What one pair cost: a row of timings.csv, thread CPU time of each stage [ms].
@@ -32,9 +34,11 @@ struct TimingRow {
   double refine_ms = 0.0;
 };
 
-/// Reads a relative_poses.csv; columns are found by name, in any order, others are passed over.
+/// Reads a relative_poses.csv; columns are found by name, in any order, others are passed over. The
+/// column `sigma_length` may be missing, as in files from before it.
 /// @throws InputError naming file, line and cure: not readable, a column is missing, a row with
-/// too few fields, not a finite number, not a unit quaternion, metric neither 0 nor 1
+/// too few fields, not a finite number, not a unit quaternion, metric neither 0 nor 1, a negative
+/// sigma_length
 [[nodiscard]] std::vector<RelativePoseRow> read_relative_poses(const std::filesystem::path& path);
 
 /// True when the first line of the file names the columns of a relative_poses.csv; false also when
@@ -42,7 +46,8 @@ struct TimingRow {
 [[nodiscard]] bool looks_like_relative_poses(const std::filesystem::path& path);
 
 /// The text of a relative_poses.csv; poses and times read back exactly (rotations to rounding).
-/// @throws std::invalid_argument when a number is not finite or a status has a comma or line break
+/// @throws std::invalid_argument when a number is not finite, a sigma_length is negative, or a
+/// status has a comma or line break
 [[nodiscard]] std::string format_relative_poses(const std::vector<RelativePoseRow>& rows);
 
 /// The text of a timings.csv, three decimals.

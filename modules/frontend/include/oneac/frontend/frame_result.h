@@ -4,6 +4,7 @@
 #include "oneac/frontend/tilt_belief.h"
 #include "oneac/geometry/relative_pose.h"
 
+#include <Eigen/Core>
 #include <Eigen/Geometry>
 
 #include <cstddef>
@@ -29,7 +30,10 @@ struct StepResult {
   RelativePose pose;
   bool metric = false;  ///< t is in metres: the scale is known well enough, or the car stood
   double length = 0.0;  ///< [m, or units while the drive has no scale] step used in the trajectory
-  double length_sigma = 0.0;   ///< relative 1σ of a metric length
+  double length_sigma = 0.0;  ///< relative 1σ of a metric length
+  /// Of (w, t) with t as in `pose`, in the second camera's frame: R ← exp([w]×) R, t ← t + v [rad²,
+  /// m² where metric]; without metres it says nothing along t. Symmetric, positive semidefinite.
+  Eigen::Matrix<double, 6, 6> covariance = Eigen::Matrix<double, 6, 6>::Zero();
   std::size_t acs = 0;         ///< affine correspondences of the pair
   std::size_t inliers = 0;     ///< of them that obey the pose
   std::size_t ground_acs = 0;  ///< on the road, where the road was last measured in this step

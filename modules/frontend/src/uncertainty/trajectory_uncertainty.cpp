@@ -1,0 +1,105 @@
+#include "oneac/frontend/trajectory_uncertainty.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace oneac {
+namespace {
+
+using Matrix6 = Eigen::Matrix<double, 6, 6>;
+
+// [m] way over which the map's own error of scale lasts: near landmarks stay in view for so long.
+constexpr double kScaleMemory = 20.0;
+constexpr double kUnknownLength = 1.0;  // relative 1σ of a length that is not metric
+
+Eigen::Matrix3d cross(const Eigen::Vector3d& a) {
+  Eigen::Matrix3d m;
+  m << 0.0, -a.z(), a.y(), a.z(), 0.0, -a.x(), -a.y(), a.x(), 0.0;
+  return m;
+}
+
+/// The step's covariance for its length in the trajectory, without what is known along t.
+Matrix6 beside_length(const StepResult& step, double length) {
+  const double own = step.pose.t.norm();
+  if (!(own > 0.0)) return step.covariance;
+  Matrix6 covariance = step.covariance;
+  const double factor = length / own;
+  covariance.rightCols<3>() *= factor;
+  covariance.bottomRows<3>() *= factor;
+  const Eigen::Vector3d u = step.pose.t / own;
+  const Eigen::Matrix3d across = Eigen::Matrix3d::Identity() - u * u.transpose();
+  covariance.rightCols<3>() *= across;
+  covariance.bottomRows<3>() = across * covariance.bottomRows<3>().eval();
+  return covariance;
+}
+
+/// Errors of (θ, p) so far: independent ones and two of length.
+class Chain {
+ public:
+  explicit Chain(double common_sigma) : common_sigma_(common_sigma) {}
+
+  void add(const StepResult& step, const Eigen::Isometry3d& before, const Eigen::Isometry3d& now) {
+    const Eigen::Vector3d d = now.translation() - before.translation();
+    add_turns(step, d, now.linear());
+    if (step.pose.t.norm() > 0.0) add_length(step, d);
+  }
+  [[nodiscard]] Eigen::Matrix3d position() const {
+    return turns_.bottomRightCorner<3, 3>() + common_ * common_.transpose() + lengths_;
+  }
+
+ private:
+  void add_turns(const StepResult& step, const Eigen::Vector3d& d, const Eigen::Matrix3d& R) {
+    Matrix6 carried = Matrix6::Identity(), from_step = Matrix6::Zero();
+    carried.bottomLeftCorner<3, 3>() = -cross(d);
+    from_step.topLeftCorner<3, 3>() = -R;
+    from_step.bottomLeftCorner<3, 3>() = -R * cross(-R.transpose() * d);
+    from_step.bottomRightCorner<3, 3>() = -R;
+    turns_ = carried * turns_ * carried.transpose() +
+             from_step * beside_length(step, d.norm()) * from_step.transpose();
+  }
+
+  /// e' = kept e + …, p' = p + σ d e' with a remembered error e of unit variance.
+  void add_length(const StepResult& step, const Eigen::Vector3d& d) {
+    const double sigma = step.metric ? step.length_sigma : kUnknownLength;
+    const double shared = std::min(sigma, common_sigma_);
+    common_ += shared * d;
+    const Eigen::Vector3d rest = std::sqrt(sigma * sigma - shared * shared) * d;
+    with_length_ *= std::exp(-d.norm() / kScaleMemory);
+    lengths_ +=
+        rest * with_length_.transpose() + with_length_ * rest.transpose() + rest * rest.transpose();
+    with_length_ += rest;
+  }
+
+  double common_sigma_;
+  Matrix6 turns_ = Matrix6::Zero();                        ///< of (θ, p)
+  Eigen::Vector3d common_ = Eigen::Vector3d::Zero();       ///< 1σ of the shared error
+  Eigen::Matrix3d lengths_ = Eigen::Matrix3d::Zero();      ///< of p by the rest
+  Eigen::Vector3d with_length_ = Eigen::Vector3d::Zero();  ///< covariance of p and e
+};
+
+}  // namespace
+
+std::optional<double> sigma_of_length(const StepResult& step) {
+  if (!step.metric) return std::nullopt;
+  const Eigen::Matrix3d of_t = step.covariance.bottomRightCorner<3, 3>();
+  const double length = step.pose.t.norm();
+  const double variance =
+      length > 0.0 ? step.pose.t.dot(of_t * step.pose.t) / (length * length) : of_t.trace() / 3.0;
+  return std::sqrt(std::max(variance, 0.0));
+}
+
+std::vector<Eigen::Matrix3d> position_covariances(const std::vector<FrameResult>& frames,
+                                                  double common_sigma) {
+  std::vector<Eigen::Matrix3d> covariances;
+  covariances.reserve(frames.size());
+  Chain chain(common_sigma);
+  for (std::size_t i = 0; i < frames.size(); ++i) {
+    if (i > 0 && frames[i].step) {
+      chain.add(*frames[i].step, frames[i - 1].T_first_cam, frames[i].T_first_cam);
+    }
+    covariances.push_back(chain.position());
+  }
+  return covariances;
+}
+
+}  // namespace oneac
