@@ -94,7 +94,9 @@ std::vector<CovarianceRow> DriveRecord::covariances() const {
     if (!frames[i].step) continue;
     const StepResult& step = *frames[i].step;
     CovarianceRow row{step.index1, step.index2, step.covariance, std::nullopt};
-    if (scaled) row.position_sigma = positions[i].diagonal().cwiseMax(0.0).cwiseSqrt();
+    if (scaled) {
+      row.position_sigma = Eigen::Vector3d(positions[i].diagonal().cwiseMax(0.0).cwiseSqrt());
+    }
     rows.push_back(row);
   }
   return rows;

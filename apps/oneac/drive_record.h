@@ -15,6 +15,11 @@
 
 namespace oneac::app {
 
+/// A stretch of time.
+struct TimeSpan {
+  double begin_s, end_s;  ///< [s] Unix times
+};
+
 /// What a run has computed so far: grows frame by frame and can be written at any time.
 struct DriveRecord {
   std::vector<FrameResult> frames;
@@ -28,7 +33,9 @@ struct DriveRecord {
   double common_length_sigma = 0.0;  ///< relative 1σ of length that all steps share
   Tilt tilt;                         ///< as believed at the end
   double camera_height = 0.0;        ///< [m] in use; 0: none
+  std::string scale_source;          ///< the parameter front_end.scale.source
   SourceReport source;
+  std::optional<TimeSpan> gps;   ///< from the first fix to the last, of what was read of the log
   std::size_t out_of_order = 0;  ///< images left out: not later than the one before
   bool interrupted = false;
   std::string failure;  ///< one line when an image stopped the run early, else ""

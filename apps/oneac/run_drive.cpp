@@ -38,16 +38,16 @@ constexpr double kLookAhead = 1.5;
 /// Hands the front-end the speeds of the log, in order.
 class SpeedFeeder {
  public:
-  explicit SpeedFeeder(const std::vector<GpsFix>& fixes) : fixes_(fixes) {}
+  explicit SpeedFeeder(const std::vector<SpeedReading>& speeds) : speeds_(speeds) {}
   void feed_until(double time_s, FrontEnd& front_end) {
-    for (; next_ < fixes_.size() && fixes_[next_].time_s <= time_s + kLookAhead; ++next_) {
-      const GpsFix& fix = fixes_[next_];
-      if (fix.speed) front_end.add_speed(fix.time_s, *fix.speed);
+    for (; next_ < speeds_.size() && speeds_[next_].time_s <= time_s + kLookAhead; ++next_) {
+      const SpeedReading& told = speeds_[next_];
+      front_end.add_speed(told.time_s, told.speed, told.sigma);
     }
   }
 
  private:
-  const std::vector<GpsFix>& fixes_;
+  const std::vector<SpeedReading>& speeds_;
   std::size_t next_ = 0;
 };
 
@@ -134,6 +134,7 @@ class Drive {
   void remember_mounting(const CameraFrame& first) {
     record_.T_vehicle_cam = first.T_vehicle_cam;
     const ScaleOptions& scale = options_.front_end.scale;
+    record_.scale_source = scale.source;
     if (scale.source == "height") record_.common_length_sigma = scale.road_uncertainty;
     record_.camera = first.camera;
   }
@@ -143,6 +144,8 @@ class Drive {
     record_.interrupted = interrupted();
     if (!record_.interrupted) source_.finish();
     record_.source = source_.report();
+    const auto& fixes = sensors_.gps.empty() ? record_.source.reference.gps : sensors_.gps;
+    if (!fixes.empty()) record_.gps = TimeSpan{fixes.front().time_s, fixes.back().time_s};
     record_.tilt = front_end_.tilt();
     record_.tilt_belief = front_end_.tilt_belief();
     record_.scale_uncertainty = front_end_.scale_uncertainty();
@@ -154,7 +157,7 @@ class Drive {
   RawlogSource source_;
   FrontEnd front_end_;
   const VehicleReference sensors_;
-  SpeedFeeder speeds_{sensors_.gps};
+  SpeedFeeder speeds_{sensors_.speeds};
   ProgressBar progress_;
   double last_time_ = -std::numeric_limits<double>::infinity();
   DriveRecord record_;

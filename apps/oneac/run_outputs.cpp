@@ -15,7 +15,7 @@ namespace oneac::app {
 
 namespace {
 
-constexpr int kTimeDecimals = 6, kAngleDecimals = 4;
+constexpr int kTimeDecimals = 6, kAngleDecimals = 4, kSpanDecimals = 1;
 
 /// An angle that rounds to zero keeps its sign, as this file always did.
 std::string angle_text(double angle) {
@@ -47,6 +47,38 @@ void write_map(const DriveRecord& record, const std::filesystem::path& folder) {
                         [&](std::ostream& out) { write_ply(record.keyframes, out); });
   write_file_atomically(folder / "map.simplemap",
                         format_simple_map(record.keyframes, record.mount(), record.camera));
+}
+
+std::string text_of(const TimeSpan& span) {
+  return fixed_text(span.begin_s, kSpanDecimals) + " to " + fixed_text(span.end_s, kSpanDecimals);
+}
+
+/// Empty without GPS and when it says something about the time of the images.
+std::string gps_beside_images(const DriveRecord& record) {
+  if (!record.gps || record.frames.empty()) return "";
+  const TimeSpan images{record.frames.front().time_s, record.frames.back().time_s};
+  if (record.gps->begin_s <= images.end_s && images.begin_s <= record.gps->end_s) return "";
+  return "the GPS (" + text_of(*record.gps) + " s) does not overlap the images (" +
+         text_of(images) + " s) in time";
+}
+
+/// Why a drive has no metres.
+std::string about_missing_scale(const DriveRecord& record) {
+  constexpr const char* kSo = ", so nothing is in metres";
+  if (record.scale_source == "gps") {
+    return !record.gps
+               ? std::string("the log holds no GPS") + kSo
+               : std::string("the GPS told no speed above walking pace that covers the images") +
+                     kSo;
+  }
+  if (record.scale_source == "stereo") {
+    return std::string("the right images gave too few depths") + kSo;
+  }
+  if (record.camera_height > 0.0) {
+    return std::string("the road was nowhere seen well enough to measure by") + kSo;
+  }
+  return std::string("neither the height of the camera nor a speed is known") + kSo +
+         "; set front_end.camera_height, or front_end.scale.source: gps";
 }
 
 }  // namespace
@@ -92,12 +124,9 @@ std::vector<std::string> notes_about(const DriveRecord& record) {
     notes.push_back(std::to_string(record.out_of_order) +
                     " images do not lie after the one before in time and were left out");
   }
+  if (const std::string gps = gps_beside_images(record); !gps.empty()) notes.push_back(gps);
   if (!record.has_scale() && record.frames.size() > 1) {
-    notes.emplace_back(
-        record.camera_height > 0.0
-            ? "the road was nowhere seen well enough to measure by, so nothing is in metres"
-            : "neither the height of the camera nor a speed is known, so nothing is in metres; set "
-              "front_end.camera_height, or front_end.scale.source: gps");
+    notes.push_back(about_missing_scale(record));
   }
   const auto predicted =
       std::count_if(record.frames.begin(), record.frames.end(), [](const FrameResult& frame) {

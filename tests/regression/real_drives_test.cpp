@@ -12,6 +12,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
+#include <filesystem>
 #include <fstream>
 #include <iterator>
 #include <memory>
@@ -120,6 +121,64 @@ TEST(Malaga07, IsLevelledByItsImu) {
     return summary["camera"]["tilt_used_last"]["pitch_up_deg"].get<double>();
   };
   EXPECT_NEAR(pitch("imu", "false"), pitch("drive", "true"), 0.5);
+}
+
+/// Copies the folder's small files and refers to its images, the GPS moved in time.
+std::filesystem::path malaga_04a_with_gps_moved(const TemporaryFolder& folder, double seconds) {
+  namespace fs = std::filesystem;
+  const fs::path from = data_folder() + "/malaga-04a", to = folder.path() / "moved";
+  fs::create_directories(to);
+  fs::create_directory_symlink(fs::absolute(from / "Images"), to / "Images");
+  for (const auto& entry : fs::directory_iterator(from)) {
+    if (!entry.is_regular_file()) continue;
+    std::ifstream in(entry.path());
+    std::ofstream out(to / entry.path().filename());
+    const bool gps = entry.path().string().find("_GPS") != std::string::npos;
+    for (std::string line; std::getline(in, line);) {
+      const bool moved = gps && !line.empty() && line.front() != '%';
+      std::size_t used = 0;
+      if (moved) out << std::fixed << std::stod(line, &used) + seconds;
+      out << line.substr(used) << '\n';
+    }
+  }
+  return to;
+}
+
+class Malaga04a : public testing::Test {
+ protected:
+  /// Metres by the GPS, whose text holds positions without speeds.
+  ProgramResult run(const std::string& source) const {
+    const std::string log = (folder_.path() / "log.rawlog").string();
+    const ProgramResult import =
+        run_program({ONEAC_PROGRAM, "import", "malaga", source, "-o", log});
+    EXPECT_EQ(import.exit_code, 0) << import.err;
+    return run_program({ONEAC_PROGRAM, "run", log, "-o", out_, "--camera", "left", "--params",
+                        params("malaga.yaml"), "--set", "front_end.scale.source=gps"});
+  }
+
+  const TemporaryFolder folder_;
+  const std::string out_ = (folder_.path() / "out").string();
+};
+
+TEST_F(Malaga04a, TakesItsMetresFromPositionsWithoutSpeeds) {
+  const ProgramResult result = run(data_folder() + "/malaga-04a");
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_EQ(result.err.find("so nothing is in metres"), std::string::npos) << result.err;
+  EXPECT_EQ(result.err.find("does not overlap"), std::string::npos) << result.err;
+  const auto poses = read_kitti(out_ + "/trajectory_camera.kitti").poses;
+  double way = 0.0;
+  for (std::size_t i = 1; i < poses.size(); ++i) {
+    way += (poses[i].translation() - poses[i - 1].translation()).norm();
+  }
+  EXPECT_NEAR(way, 20.3, 2.03);
+}
+
+TEST_F(Malaga04a, SaysThatItsGpsIsOfAnotherTime) {
+  const ProgramResult result = run(malaga_04a_with_gps_moved(folder_, 3600.0).string());
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_NE(result.err.find("does not overlap the images ("), std::string::npos) << result.err;
+  EXPECT_NE(result.err.find("so nothing is in metres"), std::string::npos) << result.err;
+  EXPECT_EQ(result.err.find("scale.source: gps"), std::string::npos) << result.err;
 }
 
 class Kitti03 : public testing::Test {

@@ -132,7 +132,9 @@ std::optional<FrameResult> FrontEnd::feed(const mrpt::obs::CObservation::Ptr& ob
     add_acceleration(intake.inertial->time_s, *intake.inertial->acceleration,
                      rate ? std::optional(rate->z()) : std::nullopt);
   }
-  if (intake.speed) add_speed(intake.speed->time_s, intake.speed->speed);
+  if (intake.speed) {
+    add_speed(intake.speed->time_s, intake.speed->speed, intake.speed->sigma);
+  }
   if (!intake.frame) return std::nullopt;
   return process(prepare(std::move(*intake.frame)));
 }
@@ -156,11 +158,13 @@ void FrontEnd::add_acceleration(double time_s, const Eigen::Vector3d& accelerati
   odometry_->add_inertial({time_s, acceleration, yaw_rate});
 }
 
-void FrontEnd::add_speed(double time_s, double speed_mps) {
+void FrontEnd::add_speed(double time_s, double speed_mps, double sigma_mps) {
   require_within(time_s, SensorLimits::kLatest, "add_speed: time_s");
   require(speed_mps >= 0.0 && speed_mps <= SensorLimits::kFastest, "add_speed: speed_mps",
           speed_mps, "from 0 to 1000");
-  odometry_->add_speed(time_s, speed_mps);
+  require(sigma_mps > 0.0 && sigma_mps <= SensorLimits::kFastest, "add_speed: sigma_mps", sigma_mps,
+          "above 0, up to 1000");
+  odometry_->add_speed({time_s, speed_mps, sigma_mps});
 }
 
 TiltBelief FrontEnd::tilt_belief() const {

@@ -32,7 +32,7 @@ class Odometry {
   /// For the tilt source "imu".
   void add_inertial(const InertialReading& reading) { attitude_.add_inertial(reading); }
   /// Speed over ground, for the scale source "gps".
-  void add_speed(double time_s, double speed_mps) { scale_.add_speed(time_s, speed_mps); }
+  void add_speed(const SpeedReading& told) { scale_.add_speed(told); }
 
   [[nodiscard]] const Attitude& attitude() const { return attitude_; }
   [[nodiscard]] const Scale& scale() const { return scale_; }

@@ -261,8 +261,8 @@ TEST(Scale, MeasuresTheMapBySpeeds) {
   for (int i = 0; i < 12; ++i) {
     static_cast<void>(scale.length_of(step(StepStatus::kOk, 0.1 * i, 1.0), {carried(2.0)}));
   }
-  scale.add_speed(0.0, 10.0);
-  scale.add_speed(1.0, 10.0);
+  scale.add_speed({0.0, 10.0});
+  scale.add_speed({1.0, 10.0});
   const ScaleCorrection correction = scale.correct({road(1.0, 2.0), {}}, {}, kFocal);
   EXPECT_NEAR(correction.factor, 0.5, 1e-6);
   EXPECT_TRUE(correction.metric);

@@ -26,8 +26,8 @@ class SpeedScaleDrive : public ::testing::Test {
 };
 
 TEST_F(SpeedScaleDrive, ComparesTheWayBetweenTwoFixesWithTheMaps) {
-  scale_.add_speed(1.0, speed(1.0));
-  scale_.add_speed(2.0, speed(2.0));
+  scale_.add_speed({1.0, speed(1.0)});
+  scale_.add_speed({2.0, speed(2.0)});
   drive_until(1.9);
   EXPECT_FALSE(scale_.measure().has_value()) << "the second fix lies ahead";
   drive_until(2.2);
@@ -43,7 +43,7 @@ TEST_F(SpeedScaleDrive, GuessesBeforeThereAreTwoFixes) {
   EXPECT_FALSE(scale_.first_guess().has_value());
   drive_until(1.0);
   EXPECT_FALSE(scale_.first_guess().has_value());
-  scale_.add_speed(0.6, speed(0.6));
+  scale_.add_speed({0.6, speed(0.6)});
   const auto guess = scale_.first_guess();
   ASSERT_TRUE(guess.has_value());
   EXPECT_NEAR(guess->ratio, 1.0 / kUnitsPerMetre, 0.03);
@@ -51,16 +51,16 @@ TEST_F(SpeedScaleDrive, GuessesBeforeThereAreTwoFixes) {
 }
 
 TEST_F(SpeedScaleDrive, KeepsToTheMapWhenItIsRescaled) {
-  scale_.add_speed(0.0, speed(0.0));
-  scale_.add_speed(1.0, speed(1.0));
+  scale_.add_speed({0.0, speed(0.0)});
+  scale_.add_speed({1.0, speed(1.0)});
   drive_until(1.2);
   scale_.rescale(1.0 / kUnitsPerMetre);
   EXPECT_NEAR(scale_.measure()->ratio, 1.0, 1e-3);
 }
 
 TEST_F(SpeedScaleDrive, DoesNotMeasureAcrossARestart) {
-  scale_.add_speed(0.0, speed(0.0));
-  scale_.add_speed(1.0, speed(1.0));
+  scale_.add_speed({0.0, speed(0.0)});
+  scale_.add_speed({1.0, speed(1.0)});
   drive_until(0.5);
   scale_.restart(time_);
   drive_until(1.5);
@@ -68,16 +68,16 @@ TEST_F(SpeedScaleDrive, DoesNotMeasureAcrossARestart) {
 }
 
 TEST_F(SpeedScaleDrive, DoesNotMeasureAtWalkingSpeedNorOverALongGap) {
-  scale_.add_speed(0.0, 0.4);
-  scale_.add_speed(1.0, 0.4);
-  scale_.add_speed(5.0, 8.0);
+  scale_.add_speed({0.0, 0.4});
+  scale_.add_speed({1.0, 0.4});
+  scale_.add_speed({5.0, 8.0});
   drive_until(6.0);
   EXPECT_FALSE(scale_.measure().has_value());
 }
 
 TEST_F(SpeedScaleDrive, PassesOverSpeedsThatAreNone) {
-  for (const double speed : {std::nan(""), HUGE_VAL, -1.0}) scale_.add_speed(0.5, speed);
-  scale_.add_speed(std::nan(""), 5.0);
+  for (const double speed : {std::nan(""), HUGE_VAL, -1.0}) scale_.add_speed({0.5, speed});
+  scale_.add_speed({std::nan(""), 5.0});
   drive_until(2.0);
   EXPECT_FALSE(scale_.measure().has_value());
   EXPECT_FALSE(scale_.first_guess().has_value());

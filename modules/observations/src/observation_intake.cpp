@@ -92,17 +92,16 @@ Intake ObservationIntake::take_inertial(const CObservation& observation) {
   return intake;
 }
 
-// A position alone has no use here; it may begin the epoch of the speed that follows.
+// A first position has no use alone; it may begin the epoch of the speed that follows.
 Intake ObservationIntake::take_speed(const CObservation& observation) {
   if (!is_stamped(observation)) return pass(PassedOver::kUnstamped);
   if (!follows(gps_, observation.sensorLabel)) return pass(PassedOver::kOtherSensor);
   const auto reading = gps_reading(observation);
   if (!reading) return pass(PassedOver::kUnusable);
   gps_ = observation.sensorLabel;
-  const double time_s = epochs_.add(*reading).time_s;
-  if (!reading->speed) return pass(PassedOver::kNotNeeded);
   Intake intake;
-  intake.speed = SpeedReading{time_s, *reading->speed};
+  intake.speed = speeds_.add(*reading);
+  if (!intake.speed) return pass(PassedOver::kNotNeeded);
   ++counts_.speeds;
   return intake;
 }

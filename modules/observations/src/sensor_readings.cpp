@@ -9,6 +9,7 @@
 
 #include <array>
 #include <cmath>
+#include <utility>
 
 namespace oneac {
 namespace {
@@ -17,6 +18,12 @@ constexpr double kMergeWithin = 0.5;             // [s] GGA and RMC of one epoch
 constexpr double kKnot = 1852.0 / 3600.0;        // [m/s]
 constexpr double kFullTurn = 2.0 * M_PI + 1e-9;  // [rad]
 constexpr int kNoFix = 0;                        // GGA fix quality
+// [s] between positions that give a speed: nearer ones differ by their noise, in a longer time the
+// speed changes; one epoch of 1 Hz may be missing.
+constexpr double kShortestStretch = 0.8, kLongestStretch = 2.5;
+// [m] 1σ of a position against the one a second before: the receiver's slow errors are the same in
+// both; its rounding to 1e-4 minutes of arc, 0.2 m, is not.
+constexpr double kPositionNoise = 0.15;
 constexpr std::int8_t kRmcValid = 'A';
 
 using GGA = mrpt::obs::gnss::Message_NMEA_GGA;
@@ -38,6 +45,18 @@ std::optional<Eigen::Vector3d> vector_of(const CObservationIMU& imu, const Field
   const bool sane = std::abs(v.x) <= limit && std::abs(v.y) <= limit && std::abs(v.z) <= limit;
   if (!sane) return std::nullopt;
   return Eigen::Vector3d(v.x, v.y, v.z);
+}
+
+/// [m] over ground between two near positions.
+double way_between(const GeodeticFix& a, const GeodeticFix& b) {
+  constexpr double kEquator = 6378137.0, kEccentricity2 = 6.69437999014e-3;  // [m], [-] of WGS84
+  const double sine = std::sin(a.latitude_deg * kDegree);
+  const double w2 = 1.0 - kEccentricity2 * sine * sine;
+  const double across = kEquator / std::sqrt(w2);  // radii of curvature
+  const double along = across * (1.0 - kEccentricity2) / w2;
+  const double turned = std::remainder(b.longitude_deg - a.longitude_deg, 360.0) * kDegree;
+  return std::hypot(along * (b.latitude_deg - a.latitude_deg) * kDegree,
+                    across * std::cos(a.latitude_deg * kDegree) * turned);
 }
 
 bool is_on_earth(const GeodeticFix& fix) {
@@ -95,6 +114,28 @@ GpsEpochs::Place GpsEpochs::add(const GpsReading& reading) {
   if (reading.speed) epoch_->speed = reading.speed;
   if (reading.course) epoch_->course = reading.course;
   return {epoch_->time_s, false};
+}
+
+std::optional<SpeedReading> SpeedOverGround::add(const GpsReading& reading) {
+  const double time_s = epochs_.add(reading).time_s;
+  std::optional<SpeedReading> told;
+  if (reading.position) told = between_positions(time_s, *reading.position);
+  if (!reading.speed) return told;
+  stated_ = true;
+  return SpeedReading{time_s, *reading.speed};
+}
+
+std::optional<SpeedReading> SpeedOverGround::between_positions(double time_s,
+                                                               const GeodeticFix& here) {
+  const double seconds = last_ ? time_s - last_->time_s : 0.0;
+  if (last_ && seconds < kShortestStretch) return std::nullopt;
+  const auto before = std::exchange(last_, Place{time_s, here});
+  const bool stated = std::exchange(stated_, false);
+  if (!before || stated || seconds > kLongestStretch) return std::nullopt;
+  const double speed = way_between(before->position, here) / seconds;
+  if (!(speed <= SensorLimits::kFastest)) return std::nullopt;
+  const double sigma = std::sqrt(2.0) * kPositionNoise / seconds;
+  return SpeedReading{0.5 * (before->time_s + time_s), speed, sigma};
 }
 
 }  // namespace oneac

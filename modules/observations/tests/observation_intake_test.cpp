@@ -100,9 +100,19 @@ TEST(ObservationIntake, GivesASpeedTheTimeOfItsEpoch) {
   ASSERT_TRUE(speed);
   EXPECT_NEAR(speed->time_s, test::kStart + 1.0, 1e-6);
   EXPECT_NEAR(speed->speed, 5.144, 1e-3);
+  EXPECT_EQ(speed->sigma, SpeedReading::kDoppler);
   const auto other = test::rmc(2.0, 10.0, 0.0);
   other->sensorLabel = "SPARE";
   EXPECT_EQ(intake.take(*other).passed_over, PassedOver::kOtherSensor);
+}
+
+TEST(ObservationIntake, GivesASpeedByPositionsAlone) {
+  ObservationIntake intake({});
+  EXPECT_EQ(intake.take(*test::gga(1.0, 36.7, -4.4, 1.0)).passed_over, PassedOver::kNotNeeded);
+  const auto speed = intake.take(*test::gga(2.0, 36.7001, -4.4, 1.0)).speed;
+  ASSERT_TRUE(speed);
+  EXPECT_NEAR(speed->speed, 11.097, 0.01);
+  EXPECT_EQ(intake.counts().speeds, 1U);
 }
 
 }  // namespace

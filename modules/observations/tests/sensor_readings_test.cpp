@@ -74,5 +74,65 @@ TEST(GpsEpochs, JoinPositionAndSpeedOfOneSecond) {
   EXPECT_TRUE(place(test::rmc(0.4, 10.0, 90.0)).begins);
 }
 
+/// 12 m a second to the north-east, at 36.7° north: 110.97 m and 89.37 m per 0.001°.
+mrpt::obs::CObservationGPS::Ptr moving_gga(double seconds) {
+  const double way = 12.0 * seconds * std::sqrt(0.5);
+  return test::gga(seconds, 36.7 + 1e-3 * way / 110.97, -4.4 + 1e-3 * way / 89.37, 30.0);
+}
+
+std::optional<SpeedReading> told(SpeedOverGround& speeds,
+                                 const mrpt::obs::CObservationGPS::Ptr& gps) {
+  return speeds.add(gps_reading(*gps).value());
+}
+
+TEST(SpeedOverGround, ComesFromPositionsWhereNoneIsStated) {
+  SpeedOverGround speeds;
+  EXPECT_FALSE(told(speeds, moving_gga(0.0)));
+  for (int second = 1; second < 5; ++second) {
+    const auto speed = told(speeds, moving_gga(second));
+    ASSERT_TRUE(speed);
+    EXPECT_NEAR(speed->speed, 12.0, 0.02);
+    EXPECT_NEAR(speed->time_s, test::kStart + second - 0.5, 1e-6);
+    EXPECT_GT(speed->sigma, SpeedReading::kDoppler);
+  }
+}
+
+TEST(SpeedOverGround, IsTheStatedOneWhereThereIsOne) {
+  for (const double rmc_at : {-0.1, 0.1}) {  // before the position, or behind it
+    SpeedOverGround speeds;
+    for (int second = 0; second < 4; ++second) {
+      const auto position = moving_gga(second), stated = test::rmc(second + rmc_at, 20.0, 45.0);
+      std::vector<SpeedReading> both;
+      for (const auto& gps :
+           rmc_at < 0.0 ? std::vector{stated, position} : std::vector{position, stated}) {
+        if (const auto speed = told(speeds, gps)) both.push_back(*speed);
+      }
+      ASSERT_EQ(both.size(), 1U);
+      EXPECT_NEAR(both[0].speed, 10.289, 1e-3);
+      EXPECT_EQ(both[0].sigma, SpeedReading::kDoppler);
+    }
+  }
+}
+
+TEST(SpeedOverGround, TakesPositionsOfAFastReceiverASecondApart) {
+  SpeedOverGround speeds;
+  std::size_t count = 0;
+  for (int tenth = 0; tenth <= 40; ++tenth) {
+    const auto speed = told(speeds, moving_gga(0.1 * tenth));
+    if (!speed) continue;
+    ++count;
+    EXPECT_NEAR(speed->speed, 12.0, 0.02);
+  }
+  EXPECT_GE(count, 4U);
+  EXPECT_LE(count, 5U);
+}
+
+TEST(SpeedOverGround, SaysNothingAcrossAGap) {
+  SpeedOverGround speeds;
+  EXPECT_FALSE(told(speeds, moving_gga(0.0)));
+  EXPECT_FALSE(told(speeds, moving_gga(3.0)));
+  EXPECT_TRUE(told(speeds, moving_gga(4.0)));
+}
+
 }  // namespace
 }  // namespace oneac

@@ -29,6 +29,19 @@ TEST(ReferenceCollector, MergesTheTwoSentencesOfASecond) {
   EXPECT_NEAR(gps[1].time_s, kStart + 1, 1e-6);
 }
 
+TEST(ReferenceCollector, TellsSpeedsByPositionsOfTheReceiverThatCounts) {
+  ReferenceCollector collector;
+  for (int i = 3; i >= 0; --i) collector.add(*gga(i, 36.7 + 1e-4 * i, -4.4, 70));  // out of order
+  const auto spare = rmc(0, 99, 90);
+  spare->sensorLabel = "SPARE";
+  collector.add(*spare);
+  const auto reference = collector.build();
+  ASSERT_EQ(reference.speeds.size(), 3U);
+  for (const SpeedReading& speed : reference.speeds) EXPECT_NEAR(speed.speed, 11.097, 0.01);
+  EXPECT_NEAR(reference.speeds[0].time_s, kStart + 0.5, 1e-6);
+  EXPECT_FALSE(reference.gps[0].speed) << "a fix holds what the log says";
+}
+
 TEST(ReferenceCollector, KeepsSentencesFurtherApartThanHalfASecondApart) {
   ReferenceCollector collector;
   collector.add(*gga(0, 36.7, -4.4, 70));

@@ -43,8 +43,8 @@ void Scale::start(const CameraFrame& first) {
   road_.set_camera_height(from_mount ? mount_height : given_height_);
 }
 
-void Scale::add_speed(double time_s, double speed_mps) {
-  speeds_.add_speed(time_s, speed_mps);
+void Scale::add_speed(const SpeedReading& told) {
+  speeds_.add_speed(told);
 }
 
 void Scale::restart(double time_s) {

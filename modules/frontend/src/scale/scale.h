@@ -41,7 +41,7 @@ class Scale {
   /// The first frame, whose mount may tell the camera's height.
   void start(const CameraFrame& first);
   /// Speed over ground in time order, for the source "gps".
-  void add_speed(double time_s, double speed_mps);
+  void add_speed(const SpeedReading& told);
   /// The map began anew at this time: its scale has to be measured again.
   void restart(double time_s);
 

@@ -7,7 +7,6 @@
 namespace oneac {
 namespace {
 
-constexpr double kSpeedSigma = 0.1;         // [m/s] a receiver's Doppler speed
 constexpr double kUsualAcceleration = 1.0;  // [m/s²] of a car in traffic
 constexpr double kLatency = 0.2;            // [s] 1σ: receivers filter, and stamp late
 constexpr double kSlowest = 1.5;            // [m/s] walking: 0.1 m/s is too much of it
@@ -18,11 +17,11 @@ constexpr double kGuessOver = 0.5;          // [s] of the way around a first gue
 
 }  // namespace
 
-void SpeedScale::add_speed(double time_s, double speed_mps) {
-  if (!std::isfinite(time_s) || !std::isfinite(speed_mps) || speed_mps < 0.0) return;
-  if (!speeds_.empty() && !(time_s > speeds_.back().time_s)) return;
-  speeds_.push_back({time_s, speed_mps});
-  while (time_s - speeds_.front().time_s > kRemembered) speeds_.pop_front();
+void SpeedScale::add_speed(const SpeedReading& told) {
+  if (!std::isfinite(told.time_s) || !std::isfinite(told.speed) || told.speed < 0.0) return;
+  if (!speeds_.empty() && !(told.time_s > speeds_.back().time_s)) return;
+  speeds_.push_back(told);
+  while (told.time_s - speeds_.front().time_s > kRemembered) speeds_.pop_front();
 }
 
 void SpeedScale::add_step(double time_s, double length) {
@@ -52,16 +51,17 @@ double SpeedScale::length_at(double time_s) const {
 std::optional<ScaleMeasurement> SpeedScale::measure() {
   double truth = 0.0, map = 0.0, variance = 0.0;
   while (speeds_.size() >= 2 && !way_.empty() && speeds_[1].time_s <= way_.back().time_s) {
-    const Sample a = speeds_[0], b = speeds_[1];
+    const SpeedReading a = speeds_[0], b = speeds_[1];
     speeds_.pop_front();
     const double seconds = b.time_s - a.time_s;
-    const double speed = 0.5 * (a.value + b.value);
+    const double speed = 0.5 * (a.speed + b.speed);
     if (a.time_s < way_.front().time_s || seconds > kLongestGap || speed < kSlowest) continue;
     truth += speed * seconds;
     map += length_at(b.time_s) - length_at(a.time_s);
-    const double from_speed = kSpeedSigma * seconds;  // a receiver's errors last for seconds
+    // A receiver's errors last for seconds.
+    const double from_speed = std::max(a.sigma, b.sigma) * seconds;
     const double from_bend = kUsualAcceleration * seconds * seconds / 8.0;
-    const double from_latency = kLatency * std::abs(b.value - a.value);
+    const double from_latency = kLatency * std::abs(b.speed - a.speed);
     variance += from_speed * from_speed + from_bend * from_bend + from_latency * from_latency;
   }
   if (!(truth > 0.0) || !(map > 0.0)) return std::nullopt;
@@ -70,21 +70,22 @@ std::optional<ScaleMeasurement> SpeedScale::measure() {
 
 std::optional<SpeedScale::Speed> SpeedScale::speed_at(double time_s) const {
   const auto after = std::lower_bound(speeds_.begin(), speeds_.end(), time_s,
-                                      [](const Sample& s, double t) { return s.time_s < t; });
-  const Sample* next = after == speeds_.end() ? nullptr : &*after;
-  const Sample* last = after == speeds_.begin() ? nullptr : &*std::prev(after);
+                                      [](const SpeedReading& s, double t) { return s.time_s < t; });
+  const SpeedReading* next = after == speeds_.end() ? nullptr : &*after;
+  const SpeedReading* last = after == speeds_.begin() ? nullptr : &*std::prev(after);
   if (next != nullptr && last != nullptr && next->time_s - last->time_s <= kLongestGap) {
     const double share = (time_s - last->time_s) / (next->time_s - last->time_s);
-    const double change = next->value - last->value;
-    return Speed{last->value + share * change, std::hypot(kSpeedSigma, kLatency * change)};
+    const double change = next->speed - last->speed;
+    const double sigma = std::max(last->sigma, next->sigma);
+    return Speed{last->speed + share * change, std::hypot(sigma, kLatency * change)};
   }
   const bool last_is_nearer =
       next == nullptr || (last != nullptr && time_s - last->time_s < next->time_s - time_s);
-  const Sample* nearest = last_is_nearer ? last : next;
+  const SpeedReading* nearest = last_is_nearer ? last : next;
   if (nearest == nullptr) return std::nullopt;
   const double age = std::abs(time_s - nearest->time_s);
   if (age > kOldestSpeed) return std::nullopt;
-  return Speed{nearest->value, std::hypot(kSpeedSigma, kUsualAcceleration * age)};
+  return Speed{nearest->speed, std::hypot(nearest->sigma, kUsualAcceleration * age)};
 }
 
 std::optional<ScaleMeasurement> SpeedScale::first_guess() const {

@@ -2,6 +2,8 @@
 
 #include "measurements.h"
 
+#include "oneac/observations/sensor_readings.h"
+
 #include <deque>
 #include <optional>
 
@@ -13,7 +15,7 @@ namespace oneac {
 class SpeedScale {
  public:
   /// Speeds in time order; they may lie ahead of the images (offline) or behind (a live receiver).
-  void add_speed(double time_s, double speed_mps);
+  void add_speed(const SpeedReading& told);
   /// The camera was `length` farther at `time_s`.
   void add_step(double time_s, double length);
   /// What came before is not connected with what follows.
@@ -29,16 +31,16 @@ class SpeedScale {
  private:
   struct Sample {
     double time_s;
-    double value;  ///< speed [m/s], or length from the start [map]
+    double value;  ///< length from the start [map]
   };
   struct Speed {
-    double value;
+    double value;  ///< [m/s]
     double sigma;
   };
   [[nodiscard]] double length_at(double time_s) const;
   [[nodiscard]] std::optional<Speed> speed_at(double time_s) const;
 
-  std::deque<Sample> speeds_;
+  std::deque<SpeedReading> speeds_;
   std::deque<Sample> way_;
 };
 

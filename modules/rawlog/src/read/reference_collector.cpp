@@ -5,16 +5,18 @@
 #include <mrpt/topography/conversions.h>
 
 #include <algorithm>
+#include <utility>
 
 namespace oneac {
 namespace {
 
 // The longest list of all labels; the alphabetically first of equals.
 template <class T>
-const std::vector<T>* longest(const std::map<std::string, std::vector<T>>& lists) {
-  const std::vector<T>* best = nullptr;
-  for (const auto& [label, list] : lists) {
-    if (best == nullptr || list.size() > best->size()) best = &list;
+const std::pair<const std::string, std::vector<T>>* longest(
+    const std::map<std::string, std::vector<T>>& lists) {
+  const std::pair<const std::string, std::vector<T>>* best = nullptr;
+  for (const auto& entry : lists) {
+    if (best == nullptr || entry.second.size() > best->second.size()) best = &entry;
   }
   return best;
 }
@@ -51,6 +53,17 @@ ReferenceCollector::Readings ReferenceCollector::merged(Readings readings) {
   return epochs;
 }
 
+std::vector<SpeedReading> ReferenceCollector::speeds_of(Readings readings) {
+  sort_by_time(readings);
+  SpeedOverGround over_ground;
+  std::vector<SpeedReading> speeds;
+  for (const auto& reading : readings) {
+    if (const auto speed = over_ground.add(reading)) speeds.push_back(*speed);
+  }
+  sort_by_time(speeds);
+  return speeds;
+}
+
 std::vector<GpsFix> ReferenceCollector::to_fixes(const Readings& epochs) {
   std::vector<GpsFix> fixes;
   std::optional<mrpt::topography::TGeodeticCoords> origin;
@@ -80,8 +93,11 @@ VehicleReference ReferenceCollector::build() const {
   VehicleReference reference;
   std::map<std::string, Readings> epochs;
   for (const auto& [label, readings] : gps_) epochs[label] = merged(readings);
-  if (const auto* best = longest(epochs)) reference.gps = to_fixes(*best);
-  if (const auto* best = longest(imu_)) reference.imu = *best;
+  if (const auto* best = longest(epochs)) {
+    reference.gps = to_fixes(best->second);
+    reference.speeds = speeds_of(gps_.at(best->first));
+  }
+  if (const auto* best = longest(imu_)) reference.imu = best->second;
   sort_by_time(reference.imu);
   return reference;
 }

@@ -28,6 +28,7 @@ class ReferenceCollector {
   using Readings = std::vector<GpsReading>;
 
   [[nodiscard]] static Readings merged(Readings readings);
+  [[nodiscard]] static std::vector<SpeedReading> speeds_of(Readings readings);
   [[nodiscard]] static std::vector<GpsFix> to_fixes(const Readings& epochs);
 
   std::map<std::string, Readings> gps_;

@@ -72,22 +72,22 @@ std::optional<double> VehicleReference::heading_change(double t0, double t1) con
 }
 
 std::optional<double> VehicleReference::distance(double t0, double t1) const {
-  Samples speeds;
+  Samples stated;
   for (const auto& fix : gps) {
-    if (fix.speed) speeds.push_back({fix.time_s, *fix.speed});
+    if (fix.speed) stated.push_back({fix.time_s, *fix.speed});
   }
-  speeds = covering(speeds, t0, t1);
-  if (speeds.empty()) return std::nullopt;
+  stated = covering(stated, t0, t1);
+  if (stated.empty()) return std::nullopt;
   double length = 0.0;
-  Sample previous{t0, value_at(speeds, t0)};
+  Sample previous{t0, value_at(stated, t0)};
   const auto advance = [&](const Sample& to) {
     length += 0.5 * (previous.value + to.value) * (to.time_s - previous.time_s);
     previous = to;
   };
-  for (const auto& sample : speeds) {
+  for (const auto& sample : stated) {
     if (sample.time_s > t0 && sample.time_s < t1) advance(sample);
   }
-  advance({t1, value_at(speeds, t1)});
+  advance({t1, value_at(stated, t1)});
   return length;
 }
 

@@ -71,10 +71,10 @@ class FrontEnd : public mrpt::system::COutputLogger {
   ///         not finite; nothing is taken then
   void add_acceleration(double time_s, const Eigen::Vector3d& acceleration,
                         std::optional<double> yaw_rate = std::nullopt);
-  /// Speed over ground [m/s], for scale.source "gps"; offline a second or two ahead of the images.
-  /// One that is not later than the last is not used.
-  /// @throws std::invalid_argument as add_acceleration does; a speed is from 0 on
-  void add_speed(double time_s, double speed_mps);
+  /// Speed over ground [m/s] with its 1σ, for scale.source "gps"; offline a second or two ahead of
+  /// the images. One that is not later than the last is not used.
+  /// @throws std::invalid_argument as add_acceleration does; a speed is from 0 on, its 1σ above 0
+  void add_speed(double time_s, double speed_mps, double sigma_mps = SpeedReading::kDoppler);
   /// CPU time of the stages so far, by name.
   [[nodiscard]] const mrpt::system::CTimeLogger& profiler() const { return profiler_; }
   /// Makes everything final that still waits, at the end of a drive. Frames that come after it

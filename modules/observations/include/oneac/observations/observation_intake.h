@@ -20,7 +20,7 @@ enum class PassedOver {
   kOutOfOrder,   ///< an image not later than the one before
   kUnstamped,    ///< a reading of IMU or GPS without time stamp
   kUnusable,     ///< a reading of IMU or GPS that is void or damaged
-  kNotNeeded,    ///< a sound reading without acceleration or speed: rates or a position alone
+  kNotNeeded,    ///< a sound reading without acceleration or speed: rates, a first position
 };
 inline constexpr std::size_t kReasons = 7;
 /// "of another sensor": completes "observation passed over: it is …" or "has …".
@@ -36,12 +36,6 @@ struct IntakeCounts {
   [[nodiscard]] std::size_t of(PassedOver reason) const {
     return passed_over[static_cast<std::size_t>(reason)];
   }
-};
-
-/// A speed over ground at a moment.
-struct SpeedReading {
-  double time_s = 0.0;  ///< [s] of the GPS epoch
-  double speed = 0.0;   ///< [m/s]
 };
 
 /// What an observation holds for a front-end: at most one of the three, or a reason for none.
@@ -90,7 +84,7 @@ class ObservationIntake {
   std::optional<CameraReader> reader_;
   std::string camera_;  ///< CameraView::name() of the one that is followed
   std::optional<std::string> imu_, gps_;
-  GpsEpochs epochs_;
+  SpeedOverGround speeds_;
   std::size_t seen_ = 0;                                         ///< images of the camera
   double last_time_ = -std::numeric_limits<double>::infinity();  ///< [s] of the last frame
   IntakeCounts counts_;

@@ -67,4 +67,34 @@ class GpsEpochs {
   std::optional<GpsReading> epoch_;  ///< the last one, as far as known
 };
 
+/// A speed over ground at a moment.
+struct SpeedReading {
+  static constexpr double kDoppler = 0.1;  ///< [m/s] 1σ of a speed that a receiver states
+
+  double time_s = 0.0;      ///< [s] Unix time
+  double speed = 0.0;       ///< [m/s]
+  double sigma = kDoppler;  ///< [m/s] 1σ
+};
+
+/// Speeds over ground out of one receiver's messages: those that it states (RMC), and where an
+/// epoch has none, the way between positions (GGA) about a second apart, which holds for the middle
+/// of that second.
+class SpeedOverGround {
+ public:
+  /// @param reading  in order of time
+  [[nodiscard]] std::optional<SpeedReading> add(const GpsReading& reading);
+
+ private:
+  [[nodiscard]] std::optional<SpeedReading> between_positions(double time_s,
+                                                              const GeodeticFix& here);
+
+  struct Place {
+    double time_s;
+    GeodeticFix position;
+  };
+  GpsEpochs epochs_;
+  std::optional<Place> last_;  ///< position that the next is compared with
+  bool stated_ = false;        ///< a speed came since then
+};
+
 }  // namespace oneac
