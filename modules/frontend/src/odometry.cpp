@@ -47,7 +47,6 @@ StepInTime step_in_time(const FrameStamp& before, const FrameStamp& now, const T
   step.begin_s = before.time_s;
   step.end_s = now.time_s;
   step.expected = last_motion;
-  step.near_identical = seen.pair.standing;
   if (seen.motion && std::isfinite(seen.motion->length_sigma)) {
     step.evidence = RoadTravel{std::abs(seen.motion->length), seen.motion->length_sigma};
   }

@@ -23,7 +23,6 @@ struct StepInTime {
   RelativePose expected;               ///< motion of the step before, length as used
   std::optional<RoadTravel> road;      ///< what the grey values of the road say of it
   std::optional<RoadTravel> evidence;  ///< of a rest, what its near points say [camera heights]
-  bool near_identical = false;         ///< the images are: near and far kept their places
 
   [[nodiscard]] double seconds() const { return end_s - begin_s; }
 };
