@@ -1,5 +1,6 @@
 #pragma once
 
+#include "oneac/base/image.h"
 #include "oneac/evaluation/covariance_io.h"
 #include "oneac/evaluation/relative_poses_io.h"
 #include "oneac/evaluation/trajectory_io.h"
@@ -34,6 +35,7 @@ struct DriveRecord {
   Tilt tilt;                         ///< as believed at the end
   double camera_height = 0.0;        ///< [m] in use; 0: none
   std::string scale_source;          ///< the parameter front_end.scale.source
+  GreyImage car_mask;                ///< FrontEnd::car_mask() at the end
   SourceReport source;
   std::optional<TimeSpan> gps;   ///< from the first fix to the last, of what was read of the log
   std::size_t out_of_order = 0;  ///< images left out: not later than the one before

@@ -150,6 +150,7 @@ class Drive {
     record_.tilt_belief = front_end_.tilt_belief();
     record_.scale_uncertainty = front_end_.scale_uncertainty();
     record_.camera_height = front_end_.camera_height();
+    record_.car_mask = front_end_.car_mask();
   }
 
   const RunOptions& options_;

@@ -5,6 +5,7 @@
 #include "oneac/base/number_text.h"
 #include "oneac/frontend/map_formats.h"
 #include "oneac/geometry/angles.h"
+#include "oneac/report/overlay.h"
 #include "oneac/report/table.h"
 
 #include <algorithm>
@@ -93,6 +94,9 @@ void write_drive(const DriveRecord& record, const std::filesystem::path& folder)
   write_file_atomically(folder / "covariance.csv", format_covariances(record.covariances()));
   write_file_atomically(folder / "tilt.csv", format_tilts(record.frames));
   if (!record.keyframes.empty()) write_map(record, folder);
+  if (!record.car_mask.empty()) {
+    write_file_atomically(folder / "mask.png", png_of(record.car_mask.view()));
+  }
   write_file_atomically(folder / "timings.csv", format_timings(record.timings()));
 }
 

@@ -8,8 +8,9 @@
 
 namespace oneac::app {
 
-/// Writes the trajectories, relative_poses.csv, covariance.csv, tilt.csv, timings.csv; each whole
-/// or not at all.
+/// Writes the trajectories, relative_poses.csv, covariance.csv, tilt.csv, timings.csv, where there
+/// are keyframes the map, where something was learned of the car mask.png; each whole or not at
+/// all.
 void write_drive(const DriveRecord& record, const std::filesystem::path& folder);
 
 /// What the program ends with when the drive is not whole, after its files are written.

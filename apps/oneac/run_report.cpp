@@ -12,6 +12,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
+#include <optional>
 
 namespace oneac::app {
 namespace {
@@ -131,6 +133,35 @@ void add_pictures(HtmlPage& page, const DriveRecord& record, const RunEvaluation
   }
 }
 
+/// The drive's last image, darkened where the car is. Empty when it cannot be read again.
+std::optional<Overlay> car_picture(const DriveRecord& record, const RunOptions& options) {
+  std::optional<GreyImage> image = read_image(options, record.frames.back().index);
+  if (!image || image->width() != record.car_mask.width() ||
+      image->height() != record.car_mask.height()) {
+    return std::nullopt;
+  }
+  constexpr int kDarker = 3;
+  for (int v = 0; v < image->height(); ++v) {
+    const std::uint8_t* mask = record.car_mask.row(v);
+    std::uint8_t* row = image->row(v);
+    for (int u = 0; u < image->width(); ++u) {
+      if (mask[u] == 0) row[u] = static_cast<std::uint8_t>(row[u] / kDarker);
+    }
+  }
+  return Overlay{image->width(), image->height(), jpeg_of(image->view()), {}};
+}
+
+void add_car(HtmlPage& page, const DriveRecord& record, const RunOptions& options) {
+  if (record.car_mask.empty()) return;
+  page.heading("What belongs to the car");
+  page.paragraph(
+      "Dark: what rested in the image below the horizon while the car travelled (mask.png). It was "
+      "learned over the drive and is not used from then on; front_end.features.mask.learn: false "
+      "turns this off.");
+  const auto picture = car_picture(record, options);
+  if (picture) page.picture("the last image", overlay_svg(*picture));
+}
+
 }  // namespace
 
 std::string report_html(const DriveRecord& record, const RunEvaluation& evaluation,
@@ -141,6 +172,7 @@ std::string report_html(const DriveRecord& record, const RunEvaluation& evaluati
   page.tiles(tiles_of(record, evaluation, summary));
   add_curves(page, record, evaluation);
   add_pictures(page, record, evaluation, options);
+  add_car(page, record, options);
   page.heading("Summary");
   add_tables(page, summary);
   page.heading(kTimingHeading);

@@ -155,6 +155,18 @@ std::vector<WorstFrame> worst_frames(const DriveRecord& record, const RunEvaluat
   return {{least, "the fewest inliers of the drive: " + inliers_text(step(least)), false}};
 }
 
+std::optional<GreyImage> read_image(const RunOptions& options, std::size_t index) {
+  try {
+    RawlogSource source(options.source.for_log(options.log));
+    for (auto ticket = source.next(); ticket; ticket = source.next()) {
+      if (ticket->index == index) return source.load(*ticket).image;
+    }
+  } catch (const std::exception&) {
+    // The log changed under the run, or the images went: the report goes without.
+  }
+  return std::nullopt;
+}
+
 std::vector<FramePicture> draw_frames(const DriveRecord& record, const RunOptions& options,
                                       const std::vector<WorstFrame>& frames) {
   std::set<std::size_t> wanted;

@@ -4,9 +4,11 @@
 #include "run_options.h"
 #include "run_summary.h"
 
+#include "oneac/base/image.h"
 #include "oneac/report/overlay.h"
 
 #include <cstddef>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -31,6 +33,10 @@ struct FramePicture {
 [[nodiscard]] std::vector<WorstFrame> worst_frames(const DriveRecord& record,
                                                    const RunEvaluation& evaluation,
                                                    std::size_t count);
+
+/// An image of the log, read once more; empty when it cannot be.
+/// @param index  of the camera's images in the log
+[[nodiscard]] std::optional<GreyImage> read_image(const RunOptions& options, std::size_t index);
 
 /// Reads the images once more and extracts their correspondences pair by pair, without the history
 /// that a tracker had in the drive. Images that cannot be read again are left out.

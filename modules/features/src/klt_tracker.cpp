@@ -62,6 +62,7 @@ TrackedPair KltTracker::advance(std::shared_ptr<const FrameFeatures> now, const 
                   anchor_->pyramid.height() != frame->pyramid.height())) {
     throw std::invalid_argument("advance: the image has another size than the one before");
   }
+  learn_car(*frame, hint);
   TrackedPair pair;
   if (!anchor_) {
     frame_ = 0;
@@ -76,6 +77,15 @@ TrackedPair KltTracker::advance(std::shared_ptr<const FrameFeatures> now, const 
   anchor_ = frame;
   replenish(*frame);
   return pair;
+}
+
+void KltTracker::learn_car(const KltFrame& now, const MotionHint& hint) {
+  if (!options_.mask.learn) return;
+  car_mask_.observe(now.pyramid, hint);
+  tracks_.erase(
+      std::remove_if(tracks_.begin(), tracks_.end(),
+                     [this](const KltTrack& track) { return !car_mask_.usable(track.u); }),
+      tracks_.end());
 }
 
 TrackedPair KltTracker::stand() {
@@ -113,7 +123,7 @@ void KltTracker::add_rematches(const std::shared_ptr<const KltFrame>& now, Match
   }
   for (const Rematch& again : rematcher_.match(anchor_, now)) {
     const Eigen::Vector2d& u2 = again.match.warp.centre;
-    if (!mask_.usable(again.u1) || !taken.is_free(u2, options_.klt.min_distance_px)) continue;
+    if (!usable(again.u1) || !taken.is_free(u2, options_.klt.min_distance_px)) continue;
     taken.add(u2);
     KltTrack track;
     track.id = next_id_++;
@@ -153,7 +163,7 @@ TrackedPair KltTracker::take(const KltFrame& now, const MotionPrediction& motion
 }
 
 bool KltTracker::holds(KltTrack& track, const KltFrame& now, const PatchMatch& match) const {
-  if (!mask_.usable(match.warp.centre)) return false;
+  if (!usable(match.warp.centre)) return false;
   track.A_now_reference = match.warp.M * track.A_now_reference;
   track.reference_is_here = false;
   const double scale = std::sqrt(std::abs(track.A_now_reference.determinant()));
@@ -170,6 +180,10 @@ bool KltTracker::holds(KltTrack& track, const KltFrame& now, const PatchMatch& m
   track.A_now_reference.setIdentity();
   track.reference_is_here = true;
   return true;
+}
+
+bool KltTracker::usable(const Eigen::Vector2d& u) const {
+  return mask_.usable(u) && car_mask_.usable(u);
 }
 
 void KltTracker::start_track(const KltFrame& now, const Corner& corner) {
@@ -197,7 +211,7 @@ void KltTracker::replenish(const KltFrame& now) {
     for (std::size_t cell = 0; cell < in_cell.size(); ++cell) {
       if (in_cell[cell] >= round || static_points_.is_blocked(cell)) continue;
       for (const Corner& corner : now.corners.cells[cell]) {
-        if (!taken.is_free(corner.u, distance)) continue;
+        if (!taken.is_free(corner.u, distance) || !car_mask_.usable(corner.u)) continue;
         offers.push_back(corner);
         break;
       }
@@ -218,6 +232,7 @@ void KltTracker::reset() {
   anchor_.reset();
   tracks_.clear();
   static_points_.clear();
+  car_mask_.break_sequence();
   frame_ = 0;
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "car_mask/car_mask.h"
 #include "feature_mask.h"
 #include "klt_track.h"
 #include "patch_flow.h"
@@ -28,10 +29,13 @@ class KltTracker : public AcTracker {
   [[nodiscard]] TrackedPair advance(std::shared_ptr<const FrameFeatures> now,
                                     const MotionHint& hint) override;
   void reset() override;
+  [[nodiscard]] GreyImage car_mask() const override { return car_mask_.picture(); }
 
  private:
   using Matches = std::vector<std::optional<PatchMatch>>;
 
+  /// Looks for the car in the image; tracks on what is known to be the car end.
+  void learn_car(const KltFrame& now, const MotionHint& hint);
   [[nodiscard]] TrackedPair stand();
   [[nodiscard]] Matches follow(const std::shared_ptr<const KltFrame>& now,
                                const MotionPrediction& motion);
@@ -42,6 +46,8 @@ class KltTracker : public AcTracker {
   [[nodiscard]] TrackedPair take(const KltFrame& now, const MotionPrediction& motion,
                                  const Matches& matches);
   [[nodiscard]] bool holds(KltTrack& track, const KltFrame& now, const PatchMatch& match) const;
+  /// Neither masked by the user nor known to be the car.
+  [[nodiscard]] bool usable(const Eigen::Vector2d& u) const;
   void replenish(const KltFrame& now);
   void start_track(const KltFrame& now, const Corner& corner);
   [[nodiscard]] int cell_px(const ImagePyramid& pyramid) const;
@@ -49,6 +55,7 @@ class KltTracker : public AcTracker {
 
   FeatureOptions options_;
   FeatureMask mask_;
+  CarMask car_mask_;
   Rematcher rematcher_;
   std::shared_ptr<const KltFrame> anchor_;
   std::vector<KltTrack> tracks_;  ///< oldest first

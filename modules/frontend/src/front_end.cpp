@@ -181,6 +181,10 @@ Tilt FrontEnd::tilt() const {
   return tilt_belief().tilt;
 }
 
+GreyImage FrontEnd::car_mask() const {
+  return tracker_->car_mask();
+}
+
 double FrontEnd::camera_height() const {
   return odometry_->scale().camera_height();
 }

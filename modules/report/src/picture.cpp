@@ -80,6 +80,10 @@ std::string jpeg_of(const ImageView& image) {
   return encoded(small, ".jpg", {cv::IMWRITE_JPEG_QUALITY, kJpegQuality});
 }
 
+std::string png_of(const ImageView& image) {
+  return encoded(grey_of(image), ".png");
+}
+
 std::string overlay_png(const ImageView& image, const std::vector<Mark>& marks) {
   cv::Mat canvas = canvas_of(image);
   for (const Mark& mark : marks) {

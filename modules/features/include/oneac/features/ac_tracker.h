@@ -1,5 +1,6 @@
 #pragma once
 
+#include "oneac/base/image.h"
 #include "oneac/features/ac_extractor.h"
 #include "oneac/features/correspondence.h"
 #include "oneac/geometry/camera.h"
@@ -40,6 +41,9 @@ class AcTracker {
                                             const MotionHint& hint) = 0;
   /// Forgets all tracks: the next frame is a first one.
   virtual void reset() = 0;
+  /// What belongs to the car as learned so far: black (0) where it does, white (255) elsewhere, of
+  /// the images' size. Empty while nothing was learned, and for trackers that do not learn.
+  [[nodiscard]] virtual GreyImage car_mask() const { return {}; }
 };
 
 /// Makes the tracker named in the options; matching extractors are wrapped, their tracks chained

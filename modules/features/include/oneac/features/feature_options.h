@@ -48,6 +48,7 @@ struct KltOptions {
 struct MaskOptions {
   std::string polygon;  ///< corners "u,v u,v u,v" [px], several polygons separated by ';'
   std::string image;    ///< grey picture of the camera's size: what is darker than 128 is not used
+  bool learn = true;    ///< klt learns what is fixed to the car (bonnet) and leaves it out, too
 
   void validate() const;
 };
@@ -99,6 +100,7 @@ template <class Visitor>
 void describe(Visitor&& visit, MaskOptions& o) {
   visit("polygon", o.polygon, "px", "not used: \"u,v u,v u,v\", several separated by ;");
   visit("image", o.image, "path", "picture whose dark pixels are not used");
+  visit("learn", o.learn, "bool", "find what is fixed to the car over the drive, do not use it");
 }
 
 template <class Visitor>

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "oneac/base/image.h"
 #include "oneac/features/ac_tracker.h"
 #include "oneac/features/road_alignment.h"
 #include "oneac/frontend/drive_trajectory.h"
@@ -89,6 +90,9 @@ class FrontEnd : public mrpt::system::COutputLogger {
   [[nodiscard]] TiltBelief tilt_belief() const;
   /// Correspondences [px] from the frame before to the last one processed, for viewers.
   [[nodiscard]] const TrackedPair& correspondences() const { return correspondences_; }
+  /// What belongs to the car as learned so far (bonnet, wipers): black there, white elsewhere, of
+  /// the images' size; empty while nothing was learned.
+  [[nodiscard]] GreyImage car_mask() const;
   /// [m] height of the camera above the road in use; 0 when unknown, then nothing is metric.
   [[nodiscard]] double camera_height() const;
   /// Relative 1σ of the lengths of the map; infinite while nothing has measured them.

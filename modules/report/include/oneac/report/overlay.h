@@ -34,6 +34,9 @@ struct Overlay {
 /// JPEG no wider than a page shows it. @throws std::invalid_argument without pixels
 [[nodiscard]] std::string jpeg_of(const ImageView& image);
 
+/// The image itself as a grey PNG. @throws std::invalid_argument without pixels
+[[nodiscard]] std::string png_of(const ImageView& image);
+
 /// An <svg> element to stand in an HtmlPage: the image, a line from u1 to u2 of each correspondence
 /// and around u2 the parallelogram that A makes of a square of the first image. The poorer half is
 /// orange, the others are blue and on top. Marks that are not finite are left out.

@@ -1,0 +1,197 @@
+#include "car_mask/car_mask.h"
+
+#include "texture.h"
+
+#include "oneac/features/ac_tracker.h"
+#include "oneac/features/feature_options.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace oneac::internal {
+namespace {
+
+constexpr int kWidth = 480, kHeight = 320;
+constexpr int kHorizon = 120;     // [px] row
+constexpr int kBonnet = 270;      // [px] row of its upper edge
+constexpr double kFocal = 500.0;  // [px]: the lower border lies 22° below the horizon
+constexpr double kStep = 0.4;     // [camera heights] a frame
+
+/// What a camera sees between two textured walls on a textured road, and what is fixed to it.
+struct Drive {
+  double step = kStep;
+  bool bonnet = false;
+  int truck_low = 0;  ///< [px] row where a vehicle at constant gap ends; 0: none
+};
+
+double scene_grey(const Texture& texture, double x, double y, double travelled) {
+  if (std::abs(y) < 0.02) y = 0.02;
+  const double road = y > 0.0 ? 1.0 / y : 1e9;                       // [camera heights] ahead
+  const double wall = std::abs(x) > 1e-3 ? 4.0 / std::abs(x) : 1e9;  // walls 4 heights beside
+  const double depth = std::min({road, wall, 60.0});
+  const double across = wall < road ? y * depth : x * depth;
+  return texture(20.0 * (depth < 60.0 ? depth + travelled : 0.0), 40.0 * across);
+}
+
+GreyImage picture(const Drive& drive, int frame) {
+  static const Texture kScene(3), kCar(4);
+  GreyImage image(kWidth, kHeight);
+  for (int v = 0; v < kHeight; ++v) {
+    for (int u = 0; u < kWidth; ++u) {
+      const double x = (u - 0.5 * kWidth) / kFocal, y = (v - kHorizon) / kFocal;
+      double grey = scene_grey(kScene, x, y, drive.step * frame);
+      const bool truck = drive.truck_low > 0 && v < drive.truck_low && v > 60 && u > 190 && u < 290;
+      if (truck || (drive.bonnet && v >= kBonnet)) grey = kCar(u, v);
+      image.row(v)[u] = static_cast<std::uint8_t>(std::clamp(std::lround(grey), 0L, 255L));
+    }
+  }
+  return image;
+}
+
+MotionHint level_hint() {
+  MotionHint hint;
+  hint.camera.width = kWidth;
+  hint.camera.height = kHeight;
+  hint.camera.fx = hint.camera.fy = kFocal;
+  hint.camera.cx = 0.5 * kWidth;
+  hint.camera.cy = kHorizon;
+  return hint;
+}
+
+constexpr int kLevels = 5;
+
+void watch(CarMask& mask, const Drive& drive, int first, int count) {
+  for (int frame = first; frame < first + count; ++frame) {
+    mask.observe(build_pyramid(picture(drive, frame).view(), kLevels), level_hint());
+  }
+}
+
+double share_in_rows(const GreyImage& mask, int first, int end) {
+  if (mask.empty()) return 0.0;
+  std::ptrdiff_t black = 0;
+  for (int v = first; v < end; ++v) black += std::count(mask.row(v), mask.row(v) + kWidth, 0);
+  return static_cast<double>(black) / (kWidth * (end - first));
+}
+
+Drive with_bonnet() {
+  Drive drive;
+  drive.bonnet = true;
+  return drive;
+}
+
+TEST(CarMask, LearnsABonnetWithinFiftyFrames) {
+  CarMask mask;
+  watch(mask, with_bonnet(), 0, 50);
+  const GreyImage picture = mask.picture();
+  ASSERT_FALSE(picture.empty());
+  EXPECT_EQ(picture.width(), kWidth);
+  EXPECT_EQ(picture.height(), kHeight);
+  EXPECT_GT(share_in_rows(picture, kBonnet, kHeight), 0.97);
+  EXPECT_LT(share_in_rows(picture, 0, kBonnet - 24), 0.01);
+  EXPECT_FALSE(mask.usable({240.0, 300.0}));
+  EXPECT_TRUE(mask.usable({240.0, 200.0}));
+}
+
+TEST(CarMask, StaysEmptyWhereTheSceneMoves) {
+  CarMask mask;
+  watch(mask, Drive{}, 0, 80);
+  EXPECT_TRUE(mask.picture().empty());
+}
+
+TEST(CarMask, LearnsNothingWhileTheCameraStands) {
+  Drive drive = with_bonnet();
+  drive.step = 0.0;
+  CarMask mask;
+  watch(mask, drive, 0, 60);
+  EXPECT_TRUE(mask.picture().empty());
+}
+
+TEST(CarMask, KeepsWhatItLearnedThroughAStop) {
+  CarMask mask;
+  watch(mask, with_bonnet(), 0, 50);
+  Drive stop = with_bonnet();
+  stop.step = 0.0;
+  watch(mask, stop, 0, 30);
+  EXPECT_GT(share_in_rows(mask.picture(), kBonnet, kHeight), 0.97);
+}
+
+// It rests below the horizon as a bonnet does, but reaches up to where far things rest.
+TEST(CarMask, DoesNotTakeAVehicleAtConstantGapForTheCar) {
+  Drive drive;
+  drive.truck_low = 200;  // 9° below the horizon: six camera heights ahead
+  CarMask mask;
+  watch(mask, drive, 0, 80);
+  EXPECT_TRUE(mask.picture().empty());
+}
+
+TEST(CarMask, ForgetsWhatMovesAgain) {
+  CarMask mask;
+  watch(mask, with_bonnet(), 0, 50);
+  watch(mask, Drive{}, 50, 160);
+  EXPECT_LT(share_in_rows(mask.picture(), kBonnet, kHeight), 0.2);
+}
+
+TEST(CarMask, LearnsNothingWithoutACamera) {
+  CarMask mask;
+  for (int frame = 0; frame < 50; ++frame) {
+    mask.observe(build_pyramid(picture(with_bonnet(), frame).view(), kLevels), {});
+  }
+  EXPECT_TRUE(mask.picture().empty());
+}
+
+CellGrid grid_of(int columns, int rows) {
+  CellGrid grid;
+  grid.columns = columns;
+  grid.rows = rows;
+  return grid;
+}
+
+TEST(CarRegion, FillsBelowALongOutlineAndNotBelowASpeck) {
+  const CellGrid grid = grid_of(40, 20);
+  std::vector<CellState> cells(grid.size());
+  for (auto& cell : cells) cell.low = true;
+  for (int column = 5; column < 30; column += 2) cells[grid.at(column, 14)].rests = true;
+  cells[grid.at(36, 5)].rests = true;
+  const std::vector<bool> car = car_region(grid, cells);
+  EXPECT_TRUE(car[grid.at(16, 19)]);
+  EXPECT_TRUE(car[grid.at(0, 19)]) << "the outline is carried on to the border near it";
+  EXPECT_FALSE(car[grid.at(16, 11)]);
+  EXPECT_TRUE(car[grid.at(36, 5)]);
+  EXPECT_FALSE(car[grid.at(36, 19)]);
+}
+
+TEST(CarRegion, DoesNotFillWhereTheRoadIsSeenBelow) {
+  const CellGrid grid = grid_of(40, 20);
+  std::vector<CellState> cells(grid.size());
+  for (auto& cell : cells) cell.low = true;
+  for (int column = 5; column < 30; ++column) {
+    cells[grid.at(column, 14)].rests = true;
+    for (int row = 16; row < 20; ++row) cells[grid.at(column, row)].moves = true;
+  }
+  const std::vector<bool> car = car_region(grid, cells);
+  EXPECT_TRUE(car[grid.at(16, 14)]);
+  EXPECT_FALSE(car[grid.at(16, 19)]);
+}
+
+TEST(KltTrackerCarMask, UsesNoCornersOfTheCarOnceItIsKnown) {
+  for (const bool learn : {true, false}) {
+    FeatureOptions options;
+    options.mask.learn = learn;
+    options.klt.max_tracks = 200;
+    const auto tracker = make_tracker(options);
+    TrackedPair pair;
+    for (int frame = 0; frame < 50; ++frame) {
+      pair = tracker->advance(tracker->prepare(picture(with_bonnet(), frame).view()), level_hint());
+    }
+    EXPECT_EQ(tracker->car_mask().empty(), !learn);
+    const auto on_bonnet =
+        std::count_if(pair.correspondences.begin(), pair.correspondences.end(),
+                      [](const Correspondence& ac) { return ac.x2.y() > kBonnet; });
+    if (learn) EXPECT_EQ(on_bonnet, 0);
+  }
+}
+
+}  // namespace
+}  // namespace oneac::internal
