@@ -9,6 +9,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
 
 namespace oneac::internal {
 namespace {
@@ -26,13 +29,14 @@ struct Drive {
   int truck_low = 0;  ///< [px] row where a vehicle at constant gap ends; 0: none
 };
 
+constexpr double kFar = 16.0;  // [camera heights] where all that is farther stands
+
 double scene_grey(const Texture& texture, double x, double y, double travelled) {
-  if (std::abs(y) < 0.02) y = 0.02;
-  const double road = y > 0.0 ? 1.0 / y : 1e9;                       // [camera heights] ahead
-  const double wall = std::abs(x) > 1e-3 ? 4.0 / std::abs(x) : 1e9;  // walls 4 heights beside
-  const double depth = std::min({road, wall, 60.0});
-  const double across = wall < road ? y * depth : x * depth;
-  return texture(20.0 * (depth < 60.0 ? depth + travelled : 0.0), 40.0 * across);
+  const double road = y > 0.0 ? 1.0 / std::max(y, 1e-3) : 1e3;  // [camera heights] ahead
+  const double wall = 4.0 / std::max(std::abs(x), 1e-3);        // walls 4 heights beside
+  const double depth = std::min({road, wall, kFar});
+  const double across = (wall < road ? y : x) * depth;
+  return texture(12.0 * (depth < kFar ? depth + travelled : 0.0), 8.0 * across);
 }
 
 GreyImage picture(const Drive& drive, int frame) {
@@ -84,12 +88,12 @@ Drive with_bonnet() {
 TEST(CarMask, LearnsABonnetWithinFiftyFrames) {
   CarMask mask;
   watch(mask, with_bonnet(), 0, 50);
-  const GreyImage picture = mask.picture();
-  ASSERT_FALSE(picture.empty());
-  EXPECT_EQ(picture.width(), kWidth);
-  EXPECT_EQ(picture.height(), kHeight);
-  EXPECT_GT(share_in_rows(picture, kBonnet, kHeight), 0.97);
-  EXPECT_LT(share_in_rows(picture, 0, kBonnet - 24), 0.01);
+  const GreyImage learned = mask.picture();
+  ASSERT_FALSE(learned.empty());
+  EXPECT_EQ(learned.width(), kWidth);
+  EXPECT_EQ(learned.height(), kHeight);
+  EXPECT_GT(share_in_rows(learned, kBonnet, kHeight), 0.97);
+  EXPECT_LT(share_in_rows(learned, 0, kBonnet - 24), 0.01);
   EXPECT_FALSE(mask.usable({240.0, 300.0}));
   EXPECT_TRUE(mask.usable({240.0, 200.0}));
 }
@@ -189,7 +193,9 @@ TEST(KltTrackerCarMask, UsesNoCornersOfTheCarOnceItIsKnown) {
     const auto on_bonnet =
         std::count_if(pair.correspondences.begin(), pair.correspondences.end(),
                       [](const Correspondence& ac) { return ac.x2.y() > kBonnet; });
-    if (learn) EXPECT_EQ(on_bonnet, 0);
+    if (learn) {
+      EXPECT_EQ(on_bonnet, 0);
+    }
   }
 }
 
