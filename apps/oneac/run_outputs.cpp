@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
+#include <system_error>
 
 namespace oneac::app {
 
@@ -82,6 +83,16 @@ std::string about_missing_scale(const DriveRecord& record) {
          "; set front_end.camera_height, or front_end.scale.source: gps";
 }
 
+/// Nothing learned: none, and none of a run before.
+void write_mask(const GreyImage& mask, const std::filesystem::path& file) {
+  std::error_code absent;
+  if (mask.empty()) {
+    std::filesystem::remove(file, absent);
+  } else {
+    write_file_atomically(file, png_of(mask.view()));
+  }
+}
+
 }  // namespace
 
 void write_drive(const DriveRecord& record, const std::filesystem::path& folder) {
@@ -94,9 +105,7 @@ void write_drive(const DriveRecord& record, const std::filesystem::path& folder)
   write_file_atomically(folder / "covariance.csv", format_covariances(record.covariances()));
   write_file_atomically(folder / "tilt.csv", format_tilts(record.frames));
   if (!record.keyframes.empty()) write_map(record, folder);
-  if (!record.car_mask.empty()) {
-    write_file_atomically(folder / "mask.png", png_of(record.car_mask.view()));
-  }
+  write_mask(record.car_mask, folder / "mask.png");
   write_file_atomically(folder / "timings.csv", format_timings(record.timings()));
 }
 

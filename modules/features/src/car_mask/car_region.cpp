@@ -100,7 +100,8 @@ class Region {
     for (int column = first; column <= last; ++column) {
       const auto begin = top.begin() + std::max(first, column - kSmooth);
       const auto end = top.begin() + std::min(last, column + kSmooth) + 1;
-      smooth[static_cast<std::size_t>(column)] = upper_median(std::vector<int>(begin, end));
+      smooth[static_cast<std::size_t>(column)] =
+          static_cast<int>(upper_median(std::vector<double>(begin, end)));
     }
     if (first <= kBridge) {
       std::fill_n(smooth.begin(), first, height(smooth, first));
