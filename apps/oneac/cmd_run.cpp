@@ -94,6 +94,8 @@ void add_run(CLI::App& program) {
   add_key(*verb, "--initialiser", "front_end.initialiser", flags->settings,
           "method of the relative pose");
   add_selection(*verb, flags->settings);
+  add_key(*verb, "--camera-height", "front_end.camera_height", flags->settings,
+          "metres of the lens above the road; without it the log's, if it tells one");
   add_key(*verb, "--reference", "run.reference", flags->settings, "true poses, KITTI or TUM");
   add_key(*verb, "--seed", "run.seed", flags->settings, "seed of methods that draw random numbers");
   add_key(*verb, "--threads", "run.threads", flags->settings, "images prepared at once");

@@ -22,6 +22,17 @@ void DriveRecord::take(Settled settled) {
   std::move(settled.keyframes.begin(), settled.keyframes.end(), std::back_inserter(keyframes));
 }
 
+void DriveRecord::withdraw_metres() {
+  for (FrameResult& frame : frames) {
+    if (!frame.step) continue;
+    StepResult& step = *frame.step;
+    if (step.metric && step.pose.t.norm() > 0.0) step.pose.t.normalize();
+    step.metric = false;
+    step.length_sigma = 0.0;
+  }
+  for (Keyframe& keyframe : keyframes) keyframe.metric = false;
+}
+
 Trajectory DriveRecord::keyframe_trajectory() const {
   Trajectory trajectory;
   for (const Keyframe& keyframe : keyframes) {

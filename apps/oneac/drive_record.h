@@ -37,8 +37,9 @@ struct DriveRecord {
   std::string scale_source;          ///< the parameter front_end.scale.source
   GreyImage car_mask;                ///< FrontEnd::car_mask() at the end
   SourceReport source;
-  std::optional<TimeSpan> gps;   ///< from the first fix to the last, of what was read of the log
-  std::size_t out_of_order = 0;  ///< images left out: not later than the one before
+  std::optional<TimeSpan> gps;            ///< from the first fix to the last, of what was read of the log
+  std::vector<std::string> setup_faults;  ///< of camera and log, at the end: nothing is in metres
+  std::size_t out_of_order = 0;           ///< images left out: not later than the one before
   bool interrupted = false;
   std::string failure;  ///< one line when an image stopped the run early, else ""
 
@@ -46,6 +47,8 @@ struct DriveRecord {
   [[nodiscard]] bool has_scale() const;
   /// Takes over what has become final.
   void take(Settled settled);
+  /// Nothing is in metres, the steps before the fault was found neither.
+  void withdraw_metres();
   /// The camera on the vehicle: as the log says, with the pitch and roll of `tilt`.
   [[nodiscard]] Eigen::Isometry3d mount() const;
   /// Camera trajectory of the keyframes.

@@ -16,6 +16,16 @@ void add_selection(CLI::App& verb, std::vector<std::string>& settings) {
   add_key(verb, "--camera", "source.camera", settings, "left, right or a sensor label");
   add_key(verb, "--calibration", "source.calibration", settings,
           "FILE[:SECTION] instead of the log's");
+  add_key(verb, "--mount-convention", "source.mount_convention", settings,
+          "axes of the log's sensor poses: auto, optical or x_forward");
+  add_key(verb, "--mount-roll", "source.mount_roll_deg", settings,
+          "degrees that the camera is turned to the right about its optical axis: 180 upside down, "
+          "90 or -90 portrait. With one of --mount-roll, -pitch, -yaw the log's orientation is not "
+          "used, and those left out are 0");
+  add_key(verb, "--mount-pitch", "source.mount_pitch_deg", settings,
+          "degrees that it looks above the horizon");
+  add_key(verb, "--mount-yaw", "source.mount_yaw_deg", settings,
+          "degrees that it looks to the left: 90 left, -90 right, 180 rear");
   add_key(verb, "--first", "source.first", settings, "first image to use, from 0");
   add_key(verb, "--count", "source.count", settings, "images to use at most; 0: all");
   add_key(verb, "--every", "source.every", settings, "use every K-th image");

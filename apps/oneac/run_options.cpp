@@ -3,6 +3,7 @@
 #include "oneac/base/error.h"
 #include "oneac/initialisers/yaml_parameters.h"
 
+#include <charconv>
 #include <stdexcept>
 
 namespace oneac::app {
@@ -14,6 +15,11 @@ void describe(Visitor&& visit, SourceParameters& o) {
   visit("images_dir", o.images_dir, "path", "external images; empty: searched beside the log");
   visit("calibration", o.calibration, "path", "FILE[:SECTION] that replaces the log's");
   visit("mount_convention", o.mount_convention, "name", "auto, optical or x_forward sensor poses");
+  visit("mount_roll_deg", o.mount_roll_deg, "deg",
+        "camera's roll, to the right: 180 upside down, 90 portrait");
+  visit("mount_pitch_deg", o.mount_pitch_deg, "deg", "its axis above the horizon");
+  visit("mount_yaw_deg", o.mount_yaw_deg, "deg",
+        "to the left: 180 rear; all three empty: as the log says");
   visit("first", o.first, "index", "first image to use");
   visit("count", o.count, "count", "images to use at most; 0: all");
   visit("every", o.every, "count", "use every K-th image");
@@ -35,6 +41,17 @@ void describe(Visitor&& visit, RunParameters& o) {
 
 namespace {
 
+/// Zero for an angle that is not given.
+double angle_of(const char* key, const std::string& text) {
+  if (text.empty()) return 0.0;
+  double value = 0.0;
+  const char* end = text.data() + text.size();
+  const auto [stop, error] = std::from_chars(text.data(), end, value);
+  if (error == std::errc{} && stop == end) return value;
+  throw InputError("parameters", std::string("source.") + key + " = '" + text + "' is no number",
+                   "give degrees");
+}
+
 /// RunParameters without what cannot change a result.
 struct ResultParameters {
   RunParameters& run;
@@ -46,6 +63,22 @@ void describe(Visitor&& visit, ResultParameters& o) {
 
 }  // namespace
 
+std::optional<MountAngles> SourceParameters::mount() const {
+  if (mount_roll_deg.empty() && mount_pitch_deg.empty() && mount_yaw_deg.empty()) {
+    return std::nullopt;
+  }
+  const MountAngles mount{angle_of("mount_roll_deg", mount_roll_deg),
+                          angle_of("mount_pitch_deg", mount_pitch_deg),
+                          angle_of("mount_yaw_deg", mount_yaw_deg)};
+  try {
+    mount.validate();
+  } catch (const std::invalid_argument& error) {
+    throw InputError("parameters", std::string("source.") + error.what(),
+                     "correct --mount-roll, --mount-pitch or --mount-yaw");
+  }
+  return mount;
+}
+
 SourceOptions SourceParameters::for_log(const std::string& log) const {
   SourceOptions options;
   options.log = log;
@@ -53,6 +86,7 @@ SourceOptions SourceParameters::for_log(const std::string& log) const {
   options.camera = camera;
   options.calibration = calibration;
   options.mount_convention = mount_convention;
+  options.mount = mount();
   options.first = first;
   options.count = count;
   options.every = every;

@@ -5,6 +5,7 @@
 #include "oneac/rawlog/rawlog_source.h"
 
 #include <cstddef>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -16,11 +17,16 @@ struct SourceParameters {
   std::string images_dir;
   std::string calibration;
   std::string mount_convention = "auto";
+  std::string mount_roll_deg, mount_pitch_deg, mount_yaw_deg;  ///< numbers, or empty
   std::size_t first = 0;
   std::size_t count = 0;
   std::size_t every = 1;
 
+  /// @throws InputError naming a key whose text is no angle, or out of bounds
   [[nodiscard]] SourceOptions for_log(const std::string& log) const;
+  /// The orientation of the camera, where one of its angles is given: the others are zero then.
+  /// @throws InputError as for_log()
+  [[nodiscard]] std::optional<MountAngles> mount() const;
 };
 
 /// How to run. None of threads, progress, quiet changes a result.

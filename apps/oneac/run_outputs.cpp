@@ -80,7 +80,7 @@ std::string about_missing_scale(const DriveRecord& record) {
     return std::string("the road was nowhere seen well enough to measure by") + kSo;
   }
   return std::string("neither the height of the camera nor a speed is known") + kSo +
-         "; set front_end.camera_height, or front_end.scale.source: gps";
+         "; give --camera-height, or set front_end.scale.source: gps";
 }
 
 /// Nothing learned: none, and none of a run before.
@@ -138,7 +138,9 @@ std::vector<std::string> notes_about(const DriveRecord& record) {
                     " images do not lie after the one before in time and were left out");
   }
   if (const std::string gps = gps_beside_images(record); !gps.empty()) notes.push_back(gps);
-  if (!record.has_scale() && record.frames.size() > 1) {
+  notes.insert(notes.end(), record.setup_faults.begin(), record.setup_faults.end());
+  const bool told = !record.setup_faults.empty();
+  if (!told && !record.has_scale() && record.frames.size() > 1) {
     notes.push_back(about_missing_scale(record));
   }
   const auto predicted =

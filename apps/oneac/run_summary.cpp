@@ -228,6 +228,7 @@ std::string summary_json(const DriveRecord& record, const RunEvaluation& evaluat
   json["scale_uncertainty"] =
       std::isfinite(record.scale_uncertainty) ? Json(record.scale_uncertainty) : Json(nullptr);
   json["tilt_source"] = options.front_end.tilt.source;
+  json["setup_faults"] = record.setup_faults;
   json["counts"] = counts_json(record);
   json["camera"] = camera_json(record);
   json["path_length"] = path_length(record.camera_trajectory().poses);

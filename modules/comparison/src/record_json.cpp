@@ -63,6 +63,9 @@ Json to_json(const CompareSettings& settings) {
   json["camera"] = settings.source.camera;
   json["calibration"] = settings.source.calibration;
   json["mount_convention"] = settings.source.mount_convention;
+  if (const auto& mount = settings.source.mount) {
+    json["mount_deg"] = {mount->roll_right_deg, mount->pitch_up_deg, mount->yaw_left_deg};
+  }
   json["first"] = settings.source.first;
   json["count"] = settings.source.count;
   json["every"] = settings.source.every;
@@ -90,6 +93,11 @@ CompareSettings settings_from(const Json& json) {
   settings.source.camera = json.at("camera").get<std::string>();
   settings.source.calibration = json.at("calibration").get<std::string>();
   settings.source.mount_convention = json.at("mount_convention").get<std::string>();
+  if (json.contains("mount_deg")) {
+    const Json& mount = json["mount_deg"];
+    settings.source.mount = MountAngles{mount.at(0).get<double>(), mount.at(1).get<double>(),
+                                        mount.at(2).get<double>()};
+  }
   settings.source.first = json.at("first").get<std::size_t>();
   settings.source.count = json.at("count").get<std::size_t>();
   settings.source.every = json.at("every").get<std::size_t>();

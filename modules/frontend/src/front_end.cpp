@@ -25,7 +25,7 @@ mrpt::containers::yaml initialiser_yaml(const FrontEndOptions& options) {
 
 IntakeOptions intake_options(const FrontEndOptions& options) {
   const bool stereo = options.scale.source == "stereo";
-  return {options.camera, {options.mount_convention, options.calibration, stereo}};
+  return {options.camera, {options.mount_convention, options.calibration, stereo, std::nullopt}};
 }
 
 /// The comparison is false for NaN.
@@ -187,6 +187,10 @@ GreyImage FrontEnd::car_mask() const {
 
 double FrontEnd::camera_height() const {
   return odometry_->scale().camera_height();
+}
+
+const std::vector<std::string>& FrontEnd::setup_faults() const {
+  return odometry_->setup().faults();
 }
 
 double FrontEnd::scale_uncertainty() const {

@@ -1,6 +1,7 @@
 #include "oneac/frontend/front_end_options.h"
 
 #include "oneac/base/require.h"
+#include "oneac/geometry/camera_height.h"
 
 namespace oneac {
 void TiltOptions::validate() const {
@@ -40,8 +41,8 @@ void ScaleOptions::validate() const {
 }
 
 void FrontEndOptions::validate() const {
-  require(camera_height >= 0.0 && camera_height < 100.0, "front_end.camera_height", camera_height,
-          "from 0 to 100");
+  require(camera_height == 0.0 || CameraHeight::is_plausible(camera_height),
+          "front_end.camera_height", camera_height, "0, or from 0.3 to 5 metres");
   const bool known = mount_convention == "auto" || mount_convention == "optical" ||
                      mount_convention == "x_forward";
   require(known, "front_end.mount_convention", mount_convention, "auto, optical or x_forward");

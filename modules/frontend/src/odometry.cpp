@@ -101,6 +101,7 @@ FrameResult Odometry::start(const CameraFrame& frame) {
   newest_ = stamp_of(frame);
   attitude_.start(frame.T_vehicle_cam.linear());
   scale_.start(frame);
+  setup_.start(frame);
   return frame_result(newest_, map_.start(newest_, frame.camera.focal_px()), attitude_);
 }
 
@@ -127,7 +128,8 @@ FrameResult Odometry::integrate(const FrameStamp& now, TwoView seen, const RoadP
   StepInTime in_time = step_in_time(before, now, seen, last_motion_);
   in_time.road = scale_.along_road(road, seen, link.carried, attitude_.now(), heading(), in_time);
   const auto told = scale_.measure(seen, link.carried, attitude_.now());
-  const StepLength length = scale_.length_of(in_time, told);
+  setup_.follow(seen, attitude_.now().R_level_cam);
+  const StepLength length = setup_.checked(scale_.length_of(in_time, told));
   seen = as_it_moved(std::move(seen), length, heading());
   if (seen.pose.t.norm() > 0.0) heading_ = seen.pose.t.normalized();
   if (scale_.map_is_refuted()) map_.forget();
@@ -144,7 +146,8 @@ FrameResult Odometry::integrate(const FrameStamp& now, TwoView seen, const RoadP
 std::optional<ScaleCorrection> Odometry::scale_correction(const std::optional<MapLengths>& lengths,
                                                           double focal_px) {
   if (!lengths) return std::nullopt;
-  return scale_.correct(*lengths, attitude_.before(lengths->newest.T_2_1.R), focal_px);
+  return setup_.checked(
+      scale_.correct(*lengths, attitude_.before(lengths->newest.T_2_1.R), focal_px));
 }
 
 Eigen::Vector3d Odometry::heading() const {

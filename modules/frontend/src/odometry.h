@@ -3,6 +3,7 @@
 #include "attitude/attitude.h"
 #include "map/keyframe_map.h"
 #include "scale/scale.h"
+#include "setup/setup_check.h"
 #include "two_view/two_view.h"
 
 #include "oneac/frontend/frame_result.h"
@@ -36,6 +37,7 @@ class Odometry {
 
   [[nodiscard]] const Attitude& attitude() const { return attitude_; }
   [[nodiscard]] const Scale& scale() const { return scale_; }
+  [[nodiscard]] const SetupCheck& setup() const { return setup_; }
   /// Motion expected for the next step, length as used; none before the first.
   [[nodiscard]] std::optional<RelativePose> expected() const;
 
@@ -50,6 +52,7 @@ class Odometry {
   TwoViewEstimator two_view_;
   Attitude attitude_;
   Scale scale_;
+  SetupCheck setup_;
   KeyframeMap map_;
   FrameStamp newest_;                                  ///< frame
   RelativePose last_motion_;                           ///< T_2_1 of the last step, length as used

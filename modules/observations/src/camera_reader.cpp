@@ -18,6 +18,19 @@ PinholeCamera calibration_of(const CameraDescription& first, const CameraReaderO
   return to_pinhole(first.calibration, where + ": camera '" + first.name + "'");
 }
 
+// The orientation that somebody states needs no convention.
+MountConvention convention_of(const CameraDescription& first, const CameraReaderOptions& options,
+                              const std::string& where) {
+  const SensorMount mount =
+      mount_from_sensor_pose(first.T_vehicle_sensor, options.mount_convention);
+  if (mount.sure || options.mount) return mount.convention;
+  throw InputError(where + ": camera '" + first.name + "'",
+                   "its sensor pose is that of no upright camera, and whether its axes are optical "
+                   "or x-forward cannot be guessed",
+                   "give --mount-convention optical or x_forward, or --mount-roll, --mount-pitch "
+                   "and --mount-yaw");
+}
+
 }  // namespace
 
 CameraDescription CameraDescription::of(const CameraView& view) {
@@ -27,12 +40,12 @@ CameraDescription CameraDescription::of(const CameraView& view) {
 
 struct CameraReader::State {
   State(const CameraDescription& described, const CameraReaderOptions& options,
-        const PinholeCamera& calibration)
+        const PinholeCamera& calibration, const std::string& where)
       : name(described.name),
         stored(described.calibration),
         overridden(options.calibration.has_value()),
-        convention(mount_from_sensor_pose(described.T_vehicle_sensor, options.mount_convention)
-                       .convention),
+        convention(convention_of(described, options, where)),
+        mount(options.mount),
         camera(calibration),
         undistorter(calibration) {}
 
@@ -40,13 +53,15 @@ struct CameraReader::State {
   mrpt::img::TCamera stored;
   bool overridden;
   MountConvention convention;
+  std::optional<MountAngles> mount;
   PinholeCamera camera;
   Undistorter undistorter;
 };
 
 CameraReader::CameraReader(const CameraDescription& first, const CameraReaderOptions& options,
                            const std::string& where)
-    : state_(std::make_unique<State>(first, options, calibration_of(first, options, where))) {
+    : state_(
+          std::make_unique<State>(first, options, calibration_of(first, options, where), where)) {
   if (!options.stereo || first.side == CameraView::Side::left) return;
   throw InputError(where + ": camera '" + first.name + "'",
                    "it is not the left one of a stereo pair", kAnotherScale);
@@ -77,7 +92,8 @@ double CameraReader::time_of(const mrpt::Clock::time_point& stamp, const std::st
 }
 
 Eigen::Isometry3d CameraReader::mount(const CameraView& view) const {
-  const auto mount = mount_from_sensor_pose(view.T_vehicle_sensor, to_string(state_->convention));
+  auto mount = mount_from_sensor_pose(view.T_vehicle_sensor, to_string(state_->convention));
+  if (state_->mount) mount.T_vehicle_cam.linear() = mount_rotation(*state_->mount);
   return mount.T_vehicle_cam * view.offset_in_pair(!undistorts());
 }
 

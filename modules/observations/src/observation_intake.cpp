@@ -138,6 +138,7 @@ Intake ObservationIntake::read(const CameraView& view, const CameraView* right,
     camera_ = view.name();
   }
   reader_->check_calibration(view, where);
+  poses_.check(view, where);
   if (!is_there(*view.pixels)) return pass(PassedOver::kMissing);
   const double baseline = right != nullptr ? reader_->baseline(*right, where) : 0.0;
   frame.time_s = CameraReader::time_of(observation.timestamp, where);

@@ -8,7 +8,9 @@
 #include <gtest/gtest.h>
 #include <mrpt/poses/CPose3D.h>
 
+#include <cmath>
 #include <limits>
+#include <stdexcept>
 
 namespace oneac {
 namespace {
@@ -43,6 +45,60 @@ TEST(SensorMount, NegativePitchOfAnXForwardPoseIsATiltUpward) {
   EXPECT_NEAR(tilt.pitch_up, 8.2 * kDegree, 1e-9);
   EXPECT_NEAR(tilt.roll_right, 0.0, 1e-9);
   EXPECT_NEAR(mount.T_vehicle_cam.translation().x(), 0.785, 1e-12);
+}
+
+Eigen::Isometry3d stored(const MountAngles& angles, MountConvention convention) {
+  Eigen::Isometry3d T = Eigen::Isometry3d::Identity();
+  T.linear() = mount_rotation(angles);
+  if (convention == MountConvention::x_forward) {
+    T.linear() = T.linear() * CameraFrame::forward_looking_mount().linear().transpose();
+  }
+  return T;
+}
+
+TEST(SensorMount, RecognisesCamerasThatAreRolledOrLookElsewhere) {
+  for (const MountAngles& angles : {MountAngles{180.0, 5.0, 0.0}, MountAngles{-180.0, -5.0, 180.0},
+                                    MountAngles{0.0, 5.0, 180.0}, MountAngles{0.0, 10.0, 90.0},
+                                    MountAngles{0.0, -10.0, -90.0}, MountAngles{3.0, 5.0, 30.0}}) {
+    for (const auto convention : {MountConvention::optical, MountConvention::x_forward}) {
+      const SensorMount mount = mount_from_sensor_pose(stored(angles, convention));
+      EXPECT_EQ(mount.convention, convention)
+          << angles.roll_right_deg << ' ' << angles.yaw_left_deg;
+      EXPECT_TRUE(mount.sure);
+      EXPECT_TRUE(mount.T_vehicle_cam.linear().isApprox(mount_rotation(angles), 1e-9));
+    }
+  }
+  for (const double roll : {90.0, -90.0}) {
+    const SensorMount mount =
+        mount_from_sensor_pose(stored({roll, 5.0, 0.0}, MountConvention::optical));
+    EXPECT_EQ(mount.convention, MountConvention::optical) << roll;
+    EXPECT_TRUE(mount.sure);
+  }
+}
+
+TEST(SensorMount, IsNotSureOfACameraThatBothReadingsMakeUnusual) {
+  const SensorMount mount =
+      mount_from_sensor_pose(stored({135.0, 0.0, 45.0}, MountConvention::optical));
+  EXPECT_FALSE(mount.sure);
+  EXPECT_TRUE(
+      mount_from_sensor_pose(stored({135.0, 0.0, 45.0}, MountConvention::optical), "optical").sure);
+}
+
+TEST(SensorMount, AnglesTurnTheCameraAsTheyAreNamed) {
+  const Eigen::Vector3d ahead = mount_rotation({0.0, 10.0, 0.0}).col(2);
+  EXPECT_NEAR(ahead.z(), std::sin(10.0 * kDegree), 1e-12) << "looks above the horizon";
+  EXPECT_TRUE(mount_rotation({0.0, 0.0, 90.0}).col(2).isApprox(Eigen::Vector3d::UnitY(), 1e-12))
+      << "looks to the left";
+  EXPECT_TRUE(mount_rotation({90.0, 0.0, 0.0}).col(0).isApprox(-Eigen::Vector3d::UnitZ(), 1e-12))
+      << "its right side hangs down";
+  EXPECT_TRUE(mount_rotation({180.0, 0.0, 0.0}).col(1).isApprox(Eigen::Vector3d::UnitZ(), 1e-12));
+}
+
+TEST(SensorMount, AnglesBeyondTheirBoundsAreRefused) {
+  EXPECT_NO_THROW((MountAngles{-180.0, 90.0, 360.0}.validate()));
+  EXPECT_THROW((MountAngles{361.0, 0.0, 0.0}.validate()), std::invalid_argument);
+  EXPECT_THROW((MountAngles{0.0, -91.0, 0.0}.validate()), std::invalid_argument);
+  EXPECT_THROW((MountAngles{0.0, 0.0, std::nan("")}.validate()), std::invalid_argument);
 }
 
 TEST(SensorMount, ObeysAGivenConvention) {

@@ -26,6 +26,7 @@ class ImportKitti : public ::testing::Test {
   ImportKitti() {
     options_.source = folder_.path() / "03";
     options_.log = folder_.path() / "out" / "k03.rawlog";
+    options_.camera_height_m = 1.65;
     fs::create_directories(options_.source);
   }
   void make_sequence(int first = 0, int count = 3, const std::string& images = "image_0") {
@@ -87,6 +88,80 @@ TEST_F(ImportKitti, StoresCalibrationAndMounting) {
   EXPECT_NEAR(image->cameraPose.z(), 1.7, 1e-12);
   EXPECT_NEAR(image->cameraPose.yaw(), -M_PI / 2, 1e-9);
   EXPECT_NEAR(image->cameraPose.roll(), -M_PI / 2, 1e-9);
+}
+
+TEST_F(ImportKitti, TakesNoHeightThatNobodyGave) {
+  make_sequence();  // 64x48 images: not KITTI's
+  options_.camera_height_m.reset();
+  const ImportReport report = import_kitti(options_);
+  EXPECT_EQ(images().at(0)->cameraPose.z(), 0.0);
+  ASSERT_FALSE(report.notes.empty());
+  EXPECT_NE(report.notes.back().find("give --camera-height"), std::string::npos);
+}
+
+TEST_F(ImportKitti, TakesKittisHeightForKittisCameraAndSaysSo) {
+  make_sequence();
+  options_.camera_height_m.reset();
+  for (int i = 0; i < 3; ++i) {
+    test::write_image(options_.source / "image_0" / ("00000" + std::to_string(i) + ".png"), 1242,
+                      375);
+  }
+  write_text(options_.source / "calib.txt",
+             "P0: 721.5377 0 609.5593 0 0 721.5377 172.854 0 0 0 1 0\n");
+  const ImportReport report = import_kitti(options_);
+  EXPECT_NEAR(images().at(0)->cameraPose.z(), 1.65, 1e-12);
+  EXPECT_NE(report.notes.back().find("1.65 m is taken"), std::string::npos);
+  write_text(options_.source / "calib.txt", "P0: 725 0 609.5593 0 0 725 172.854 0 0 0 1 0\n");
+  import_kitti(options_);
+  EXPECT_EQ(images().at(0)->cameraPose.z(), 0.0) << "another camera with images of this size";
+}
+
+TEST_F(ImportKitti, RefusesHeightsOfNoVehicle) {
+  make_sequence();
+  for (const double height : {165.0, 0.0, -1.65, 0.2, 5.5}) {
+    options_.camera_height_m = height;
+    EXPECT_NE(complaint().find("from 0.3 to 5"), std::string::npos) << height;
+  }
+  for (const double height : {0.3, 3.5, 5.0}) {
+    options_.camera_height_m = height;
+    EXPECT_EQ(complaint(), "") << height;
+  }
+}
+
+TEST_F(ImportKitti, WritesTheMountIntoTheLog) {
+  make_sequence();
+  options_.mount = {180.0, 5.0, 90.0};
+  for (const auto convention : {MountConvention::optical, MountConvention::x_forward}) {
+    options_.convention = convention;
+    import_kitti(options_);
+    const auto pose = images()
+                          .at(0)
+                          ->cameraPose.getHomogeneousMatrixVal<mrpt::math::CMatrixDouble44>()
+                          .asEigen()
+                          .eval();
+    const SensorMount mount =
+        mount_from_sensor_pose(Eigen::Isometry3d(pose), to_string(convention));
+    EXPECT_TRUE(mount.T_vehicle_cam.linear().isApprox(mount_rotation(options_.mount), 1e-6));
+  }
+  options_.mount.pitch_up_deg = 95.0;
+  EXPECT_NE(complaint().find("--mount-pitch"), std::string::npos);
+}
+
+TEST_F(ImportKitti, OrdersImagesByTheirNumbersAndSaysSo) {
+  make_sequence(0, 0);
+  for (const char* name : {"1.png", "2.png", "9.png", "10.png", "11.png", "100.png"}) {
+    test::write_image(options_.source / "images" / name);
+  }
+  fs::remove(options_.source / "times.txt");
+  fs::remove(options_.source / "poses.txt");
+  options_.copy_images = true;
+  const ImportReport report = import_kitti(options_);
+  std::vector<std::string> order;
+  for (const auto& image : images()) order.push_back(image->image.getExternalStorageFile());
+  EXPECT_EQ(order,
+            (std::vector<std::string>{"1.png", "2.png", "9.png", "10.png", "11.png", "100.png"}));
+  EXPECT_NE(report.notes.back().find("numbers in their names: 1.png to 100.png"), std::string::npos)
+      << report.notes.back();
 }
 
 TEST_F(ImportKitti, TheColourCameraHasItsOwnCalibration) {

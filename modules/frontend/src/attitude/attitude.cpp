@@ -1,6 +1,7 @@
 #include "attitude.h"
 
 #include "tilt_step.h"
+#include "wrapped_angle.h"
 
 #include "oneac/geometry/angles.h"
 
@@ -41,7 +42,7 @@ Tilt Attitude::given() const {
   const double off = gravity_.sigma() / kLevelVehicle;
   const double trust = 1.0 / (1.0 + off * off);
   return {log.pitch_up + trust * (felt.pitch_up - log.pitch_up),
-          log.roll_right + trust * (felt.roll_right - log.roll_right)};
+          log.roll_right + trust * wrapped_angle(felt.roll_right - log.roll_right)};
 }
 
 void Attitude::follow(const StepResult& step) {

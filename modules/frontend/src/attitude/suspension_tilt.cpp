@@ -1,6 +1,7 @@
 #include "oneac/frontend/suspension_tilt.h"
 
 #include "mainly_forward.h"
+#include "wrapped_angle.h"
 
 #include "oneac/geometry/angles.h"
 
@@ -82,7 +83,7 @@ void SuspensionTilt::hold_roll(double seconds, const TiltBelief& mounting) {
   if (!(seconds > 0.0)) return;
   // One independent sight of the roll in 2 kBend, of a roll that varies by this.
   const double sigma = std::hypot(mounting.roll_sigma, kLean) * std::sqrt(2.0 * kBend / seconds);
-  measure({0.0, 1.0}, tilt_.roll_right - mounting.tilt.roll_right, sigma);
+  measure({0.0, 1.0}, wrapped_angle(tilt_.roll_right - mounting.tilt.roll_right), sigma);
 }
 
 /// @param off  row · (error of the tilt) + noise

@@ -6,6 +6,8 @@
 
 #include <algorithm>
 #include <cctype>
+#include <stdexcept>
+#include <string_view>
 #include <system_error>
 
 namespace oneac {
@@ -20,6 +22,43 @@ bool is_image(const fs::path& path) {
   return extension == ".png" || extension == ".jpg" || extension == ".jpeg";
 }
 
+bool is_digit(char c) {
+  return c >= '0' && c <= '9';
+}
+
+/// The digits from `at` on, without zeros in front.
+std::string_view number_at(std::string_view text, std::size_t at) {
+  std::size_t end = at;
+  while (end < text.size() && is_digit(text[end])) ++end;
+  while (at + 1 < end && text[at] == '0') ++at;
+  return text.substr(at, end - at);
+}
+
+std::size_t behind_number(std::string_view text, std::size_t at) {
+  while (at < text.size() && is_digit(text[at])) ++at;
+  return at;
+}
+
+/// Numbers in names count by their value, however many digits they have.
+bool comes_before(std::string_view a, std::string_view b) {
+  std::size_t i = 0, j = 0;
+  while (i < a.size() && j < b.size()) {
+    if (is_digit(a[i]) && is_digit(b[j])) {
+      const std::string_view m = number_at(a, i), n = number_at(b, j);
+      if (m.size() != n.size()) return m.size() < n.size();
+      if (m != n) return m < n;
+      i = behind_number(a, i);
+      j = behind_number(b, j);
+      continue;
+    }
+    if (a[i] != b[j]) return a[i] < b[j];
+    ++i;
+    ++j;
+  }
+  const bool a_ends = i == a.size(), b_ends = j == b.size();
+  return a_ends != b_ends ? a_ends : a < b;
+}
+
 }  // namespace
 
 std::vector<fs::path> list_images(const fs::path& folder) {
@@ -28,8 +67,22 @@ std::vector<fs::path> list_images(const fs::path& folder) {
   for (const auto& entry : fs::directory_iterator(folder, error)) {
     if (entry.is_regular_file(error) && is_image(entry.path())) images.push_back(entry.path());
   }
-  std::sort(images.begin(), images.end());
+  std::sort(images.begin(), images.end(), [](const fs::path& a, const fs::path& b) {
+    return comes_before(a.filename().native(), b.filename().native());
+  });
   return images;
+}
+
+bool is_reordered(const std::vector<fs::path>& images) {
+  return !std::is_sorted(images.begin(), images.end());
+}
+
+void require_mount(const MountAngles& mount) {
+  try {
+    mount.validate();
+  } catch (const std::invalid_argument& error) {
+    throw InputError("import", error.what(), "correct --mount-roll, --mount-pitch or --mount-yaw");
+  }
 }
 
 std::pair<int, int> image_size(const fs::path& image) {

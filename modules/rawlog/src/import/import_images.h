@@ -1,5 +1,7 @@
 #pragma once
 
+#include "oneac/observations/sensor_mount.h"
+
 #include <filesystem>
 #include <string>
 #include <utility>
@@ -7,7 +9,8 @@
 
 namespace oneac {
 
-/// Images (.png, .jpg, .jpeg) of a folder by name; empty when there is no such folder.
+/// Images (.png, .jpg, .jpeg) of a folder in the order of their names, numbers in them by their
+/// value: 2 before 10; empty when there is no such folder.
 [[nodiscard]] std::vector<std::filesystem::path> list_images(const std::filesystem::path& folder);
 
 /// Width and height [px]. @throws InputError when the image cannot be decoded
@@ -15,6 +18,12 @@ namespace oneac {
 
 /// @throws InputError when the source of an import is no folder
 void require_source_folder(const std::filesystem::path& source);
+
+/// Whether a list of names in alphabetical order would be another.
+[[nodiscard]] bool is_reordered(const std::vector<std::filesystem::path>& images);
+
+/// @throws InputError for angles out of bounds
+void require_mount(const MountAngles& mount);
 
 /// How a log refers to its images: where they are, or copied to <log base>_Images beside it.
 class ImageReferences {

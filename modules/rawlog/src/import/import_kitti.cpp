@@ -5,13 +5,15 @@
 
 #include "oneac/base/atomic_file.h"
 #include "oneac/base/error.h"
-#include "oneac/geometry/camera_frame.h"
+#include "oneac/base/number_text.h"
+#include "oneac/geometry/camera_height.h"
 #include "oneac/rawlog/calibration.h"
 #include "oneac/rawlog/rawlog_writer.h"
 
 #include <algorithm>
 #include <array>
 #include <charconv>
+#include <cmath>
 #include <fstream>
 #include <optional>
 #include <string>
@@ -24,7 +26,10 @@ namespace fs = std::filesystem;
 constexpr double kRate_hz = 10.0;          // KITTI's, where times.txt is missing
 constexpr double kEpoch_s = 1317016800.0;  // 26 September 2011, when sequence 03 was recorded
 constexpr double kUnixTimes_s = 1e8;       // times.txt counts from 0; larger ones are Unix times
-constexpr std::size_t kPoseColumns = 12;   // rows of [R | t]
+constexpr double kHeight_m = 1.65;         // of KITTI's cameras above the road
+constexpr std::array<double, 3> kFocals_px{707.0912, 718.856, 721.5377};  // of KITTI's days
+constexpr double kSameFocal_px = 0.05;
+constexpr std::size_t kPoseColumns = 12;  // rows of [R | t]
 constexpr std::array<const char*, 4> kImageFolders{"image_0", "image_l", "image_2", "images"};
 
 struct Sequence {
@@ -135,6 +140,43 @@ void copy_poses(const fs::path& source, const Sequence& sequence, ImportReport& 
   write_file_atomically(report.poses, text);
 }
 
+/// Whether the folder is KITTI's own, whose cameras are 1.65 m above the road.
+bool is_kittis(const PinholeCamera& camera) {
+  const bool size =
+      camera.width >= 1224 && camera.width <= 1242 && camera.height >= 370 && camera.height <= 376;
+  return size && std::any_of(kFocals_px.begin(), kFocals_px.end(), [&](double focal) {
+           return std::abs(camera.fx - focal) < kSameFocal_px;
+         });
+}
+
+/// [m] above the road; 0: nobody knows.
+double height_of(const KittiImport& options, const PinholeCamera& camera, ImportReport& report) {
+  if (options.camera_height_m) {
+    if (CameraHeight::is_plausible(*options.camera_height_m)) return *options.camera_height_m;
+    throw InputError("--camera-height " + exact_text(*options.camera_height_m),
+                     "no camera of a vehicle is so high above the road",
+                     "give metres, from " + exact_text(CameraHeight::kLowest) + " to " +
+                         exact_text(CameraHeight::kHighest));
+  }
+  if (is_kittis(camera)) {
+    report.notes.emplace_back(
+        "size and focal length are KITTI's: its camera height of 1.65 m is "
+        "taken, give another with --camera-height");
+    return kHeight_m;
+  }
+  report.notes.emplace_back(
+      "the camera's height is not known, and nothing will be in metres by it: give "
+      "--camera-height");
+  return 0.0;
+}
+
+void note_order(const Sequence& sequence, ImportReport& report) {
+  if (!is_reordered(sequence.images)) return;
+  report.notes.emplace_back("the images are ordered by the numbers in their names: " +
+                            sequence.images.front().filename().string() + " to " +
+                            sequence.images.back().filename().string());
+}
+
 }  // namespace
 
 ImportReport import_kitti(const KittiImport& options) {
@@ -145,8 +187,11 @@ ImportReport import_kitti(const KittiImport& options) {
   ImageRecord record;
   record.label = sequence.label;
   record.camera = find_calibration(options.source, sequence);
-  record.T_vehicle_cam = CameraFrame::forward_looking_mount();
-  record.T_vehicle_cam.translation().z() = options.camera_height_m;
+  require_mount(options.mount);
+  record.T_vehicle_cam.linear() = mount_rotation(options.mount);
+  record.T_vehicle_cam.translation().z() = height_of(options, record.camera, report);
+  record.convention = options.convention;
+  note_order(sequence, report);
   const std::vector<double> times = find_times(options.source, sequence, report);
   RawlogWriter log(options.log);
   const ImageReferences references(options.log, options.copy_images);

@@ -20,10 +20,10 @@ namespace fs = std::filesystem;
 
 constexpr double kTilt = 8.2 * M_PI / 180.0;  // upwards; as in the dataset's own logs
 
-/// The left camera on the vehicle, as in the dataset's own logs.
-Eigen::Isometry3d malaga_mount() {
+/// The left camera on the vehicle, as in the dataset's own logs where nobody says otherwise.
+Eigen::Isometry3d malaga_mount(const std::optional<MountAngles>& given) {
   Eigen::Isometry3d T = CameraFrame::forward_looking_mount();
-  T.linear() = T.linear() * leveling_rotation({kTilt, 0.0});
+  T.linear() = given ? mount_rotation(*given) : T.linear() * leveling_rotation({kTilt, 0.0});
   T.translation() << 0.785, 0.0, 0.273;
   return T;
 }
@@ -97,9 +97,9 @@ class MalagaImporter {
     record.label = pair.label;
     record.left = calibration_.left;
     record.right = calibration_.right;
-    record.T_vehicle_left = malaga_mount();
+    record.T_vehicle_left = malaga_mount(options_.mount);
     record.T_left_right = calibration_.T_left_right;
-    record.convention = MountConvention::x_forward;
+    record.convention = options_.convention;
     // A stereo observation always has a left image: a missing one is named as it would be called.
     record.left_file = pair.left.empty() ? missing_left(pair) : references.refer_to(pair.left);
     if (!pair.right.empty()) record.right_file = references.refer_to(pair.right);
@@ -138,6 +138,7 @@ class MalagaImporter {
 }  // namespace
 
 ImportReport import_malaga(const MalagaImport& options) {
+  if (options.mount) require_mount(*options.mount);
   return MalagaImporter(options).run();
 }
 

@@ -4,12 +4,14 @@
 #include "images/stored_image.h"
 #include "read/camera_selection.h"
 #include "read/log_reader.h"
+#include "read/name_order.h"
 #include "read/reference_collector.h"
 
 #include "oneac/base/error.h"
 #include "oneac/base/thread_clock.h"
 #include "oneac/mrpt_compat/observations.h"
 #include "oneac/observations/camera_reader.h"
+#include "oneac/observations/pose_watch.h"
 #include "oneac/rawlog/calibration.h"
 
 #include <utility>
@@ -67,6 +69,8 @@ class RawlogSource::Impl {
   CameraReader camera_;
   LogReader reader_;
   ReferenceCollector collector_;
+  NameOrder names_;
+  PoseWatch poses_;
   SourceReport report_;
   std::size_t delivered_ = 0;
   std::optional<double> last_time_;
@@ -85,6 +89,7 @@ CameraReaderOptions RawlogSource::Impl::reader_options() const {
   CameraReaderOptions options;
   options.mount_convention = options_.mount_convention;
   options.stereo = options_.stereo;
+  options.mount = options_.mount;
   if (!options_.calibration.empty()) {
     options.calibration = load_calibration(options_.calibration, chosen_.side_name);
   }
@@ -139,6 +144,7 @@ std::optional<FrameTicket> RawlogSource::Impl::ticket_of(const Sight& sight,
                                                          const RawlogRecord& record) {
   const LogView& view = sight.view;
   camera_.check_calibration(view, where(record.number));
+  poses_.check(view, where(record.number));
   FrameTicket ticket;
   ticket.index = report_.images_in_log - 1;
   ticket.name = view.image->kind == LogImage::Kind::external
@@ -149,6 +155,7 @@ std::optional<FrameTicket> RawlogSource::Impl::ticket_of(const Sight& sight,
     if (report_.images_missing++ == 0) report_.first_missing = ticket.name;
     return std::nullopt;
   }
+  if (view.image->kind == LogImage::Kind::external) names_.add(ticket.name);
   auto payload = std::make_shared<Payload>();
   payload->image = std::move(*image);
   if (sight.right) add_right(*sight.right, record.number, *payload);
@@ -195,6 +202,7 @@ void RawlogSource::Impl::finish() {
 
 void RawlogSource::Impl::complete_report() {
   if (reader_.damage()) report_.damage = reader_.damage()->what();
+  report_.names_out_of_order = names_.fault();
   report_.reference = collector_.build();
 }
 

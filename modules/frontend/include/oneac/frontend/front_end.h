@@ -19,6 +19,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace mrpt::obs {
 class CObservation;
@@ -95,6 +96,9 @@ class FrontEnd : public mrpt::system::COutputLogger {
   [[nodiscard]] GreyImage car_mask() const;
   /// [m] height of the camera above the road in use; 0 when unknown, then nothing is metric.
   [[nodiscard]] double camera_height() const;
+  /// What speaks against calibration and mount as they are believed, one line each with its cure;
+  /// while there is something, no step is metric.
+  [[nodiscard]] const std::vector<std::string>& setup_faults() const;
   /// Relative 1σ of the lengths of the map; infinite while nothing has measured them.
   [[nodiscard]] double scale_uncertainty() const;
 

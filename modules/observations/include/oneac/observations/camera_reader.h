@@ -33,6 +33,8 @@ struct CameraReaderOptions {
   std::string mount_convention = "auto";     ///< "auto", "optical" or "x_forward" sensor poses
   std::optional<PinholeCamera> calibration;  ///< instead of that of the observations
   bool stereo = false;                       ///< the right image of a pair is wanted too
+  /// Instead of the orientation of the observations, whose positions are kept
+  std::optional<MountAngles> mount;
 };
 
 /// One camera of a log or of a running vehicle: what makes a CameraFrame of its images, and the
@@ -44,7 +46,8 @@ class CameraReader {
  public:
   /// @param where  of the first image, for messages: "drive.rawlog: record 4"
   /// @throws InputError: no calibration, a lens model that is not plumb-bob, a pose that is not
-  ///         finite, an unknown convention; with `stereo` a camera that is not the left one
+  ///         finite, an unknown convention, a pose of which neither convention makes a usual
+  ///         mount ("auto", without `mount`); with `stereo` a camera that is not the left one
   CameraReader(const CameraDescription& first, const CameraReaderOptions& options,
                const std::string& where);
   ~CameraReader();

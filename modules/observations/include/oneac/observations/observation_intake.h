@@ -2,6 +2,7 @@
 
 #include "oneac/geometry/camera_frame.h"
 #include "oneac/observations/camera_reader.h"
+#include "oneac/observations/pose_watch.h"
 #include "oneac/observations/sensor_readings.h"
 
 #include <array>
@@ -82,6 +83,7 @@ class ObservationIntake {
 
   IntakeOptions options_;
   std::optional<CameraReader> reader_;
+  PoseWatch poses_;
   std::string camera_;  ///< CameraView::name() of the one that is followed
   std::optional<std::string> imu_, gps_;
   SpeedOverGround speeds_;

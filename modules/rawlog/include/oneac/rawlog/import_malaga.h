@@ -1,8 +1,10 @@
 #pragma once
 
+#include "oneac/observations/sensor_mount.h"
 #include "oneac/rawlog/import_report.h"
 
 #include <filesystem>
+#include <optional>
 
 namespace oneac {
 
@@ -10,8 +12,10 @@ namespace oneac {
 struct MalagaImport {
   std::filesystem::path
       source;  ///< holds Images, *_Images or the images themselves, and the text files
-  std::filesystem::path log;  ///< rawlog to write
-  bool copy_images = false;   ///< copy to <log base>_Images instead of referring to them
+  std::filesystem::path log;         ///< rawlog to write
+  bool copy_images = false;          ///< copy to <log base>_Images instead of referring to them
+  std::optional<MountAngles> mount;  ///< orientation of the left camera; none: the dataset's
+  MountConvention convention = MountConvention::x_forward;  ///< in which the log stores it
 };
 
 /// Writes the extract as a rawlog: a CObservationStereoImages per pair

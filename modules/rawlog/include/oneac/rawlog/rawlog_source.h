@@ -1,6 +1,7 @@
 #pragma once
 
 #include "oneac/geometry/camera_frame.h"
+#include "oneac/observations/sensor_mount.h"
 #include "oneac/rawlog/vehicle_reference.h"
 
 #include <cstddef>
@@ -19,6 +20,7 @@ struct SourceOptions {
   std::string camera;  ///< "left", "right", a sensor label, or "" when the log leaves no choice
   std::string calibration;  ///< FILE[:SECTION] that overrides the log's; "" keeps the log's
   std::string mount_convention = "auto";  ///< "auto", "optical" or "x_forward" sensor poses
+  std::optional<MountAngles> mount;       ///< instead of the orientation of the sensor poses
   std::size_t first = 0;                  ///< first image of the camera to use
   std::size_t count = 0;                  ///< images to use at most; 0: all
   std::size_t every = 1;                  ///< use every K-th image from `first` on; ≥ 1
@@ -34,6 +36,7 @@ struct SourceReport {
   std::size_t images_missing = 0;  ///< external files that were not found (among those selected)
   std::string first_missing;       ///< name of the first of them
   std::string damage;  ///< one line (file, record, fault, cure) when the log ends badly, else ""
+  std::string names_out_of_order;   ///< one line with the cure, else ""
   VehicleReference reference;       ///< GPS and IMU seen on the way
   bool undistorted_by_log = false;  ///< images are taken for raw, because the log's calibration is
 };

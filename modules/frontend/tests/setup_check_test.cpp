@@ -1,0 +1,164 @@
+#include "setup/setup_check.h"
+
+#include "oneac/geometry/homography.h"
+#include "oneac/geometry/leveling.h"
+#include "oneac/observations/sensor_mount.h"
+#include "oneac/test_support/scenes.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <string>
+
+namespace oneac {
+namespace {
+
+constexpr double kHeight = 1.5;
+constexpr int kSteps = 60;
+
+CameraFrame frame_of(const MountAngles& believed) {
+  CameraFrame frame;
+  frame.camera.width = 1242;
+  frame.camera.height = 375;
+  frame.camera.fx = frame.camera.fy = 720.0;
+  frame.camera.cx = 610.0;
+  frame.camera.cy = 173.0;
+  frame.T_vehicle_cam.linear() = mount_rotation(believed);
+  return frame;
+}
+
+/// A step over a road, as a camera sees it that is really mounted like this.
+TwoView seen_by(const MountAngles& real, const Eigen::Vector3d& way_of_vehicle) {
+  SceneGenerator random(5);
+  const Eigen::Matrix3d R_cam_vehicle = mount_rotation(real).transpose();
+  const RelativePose T{Eigen::Matrix3d::Identity(), -(R_cam_vehicle * way_of_vehicle)};
+  const Plane ground{-(R_cam_vehicle * Eigen::Vector3d::UnitZ()), kHeight};
+  TwoView seen;
+  seen.status = StepStatus::kOk;
+  seen.focal_px = 720.0;
+  seen.pose = {T.R, T.t.normalized()};
+  const Eigen::Matrix3d H = plane_induced_homography(T, ground);
+  for (int i = 0; i < 80; ++i) {
+    // On the road, 4 to 12 m ahead.
+    const Eigen::Vector3d X = R_cam_vehicle * Eigen::Vector3d(random.uniform(4.0, 12.0),
+                                                              random.uniform(-2.0, 2.0), -kHeight);
+    if (!(X.z() > 0.1)) continue;
+    const auto ac = correspondence_from_homography(H, X.head<2>() / X.z());
+    if (!ac) continue;
+    seen.pair.correspondences.emplace_back();
+    static_cast<AffineCorrespondence&>(seen.pair.correspondences.back()) = *ac;
+  }
+  seen.inliers.assign(seen.pair.size(), true);
+  seen.inlier_count = seen.pair.size();
+  return seen;
+}
+
+Eigen::Matrix3d levelling(const MountAngles& believed) {
+  return leveling_rotation(tilt_from_mounting(mount_rotation(believed)));
+}
+
+/// What is said of a straight drive with a camera believed to be mounted like this.
+std::vector<std::string> faults(const MountAngles& believed, const MountAngles& real) {
+  SetupCheck setup;
+  setup.start(frame_of(believed));
+  const TwoView seen = seen_by(real, {1.0, 0.0, 0.0});
+  for (int i = 0; i < kSteps; ++i) setup.follow(seen, levelling(believed));
+  EXPECT_EQ(setup.metric_allowed(), setup.faults().empty());
+  return setup.faults();
+}
+
+MountAngles rolled(double deg) {
+  return {deg, 3.0, 0.0};
+}
+
+TEST(SetupCheck, SaysNothingOfMountsThatAreAsBelieved) {
+  for (const MountAngles& mount : {rolled(0.0), rolled(180.0), rolled(90.0), rolled(-90.0),
+                                   MountAngles{0.0, 3.0, 25.0}, MountAngles{0.0, 3.0, -40.0}}) {
+    const auto found = faults(mount, mount);
+    EXPECT_TRUE(found.empty()) << mount.roll_right_deg << ' ' << mount.yaw_left_deg << ": "
+                               << found.front();
+  }
+}
+
+TEST(SetupCheck, FindsTheRoadWhereItShouldNotBe) {
+  struct Case {
+    double roll;
+    const char* cure;
+  };
+  for (const Case& c : {Case{180.0, "with 180 degrees"}, Case{90.0, "with 90 degrees"},
+                        Case{-90.0, "with -90 degrees"}}) {
+    const auto found = faults({0.0, 0.0, 0.0}, {c.roll, 0.0, 0.0});
+    ASSERT_EQ(found.size(), 1U) << c.roll;
+    EXPECT_NE(found[0].find(c.cure), std::string::npos) << found[0];
+    EXPECT_NE(found[0].find("nothing is in metres"), std::string::npos) << found[0];
+  }
+}
+
+TEST(SetupCheck, FindsTravelOffTheBelievedHeading) {
+  const auto found = faults({0.0, 0.0, 0.0}, {0.0, 0.0, 40.0});
+  ASSERT_FALSE(found.empty());
+  EXPECT_NE(found[0].find("40° off"), std::string::npos) << found[0];
+  EXPECT_NE(found[0].find("--mount-yaw"), std::string::npos) << found[0];
+  EXPECT_FALSE(faults({0.0, 0.0, 90.0}, {0.0, 0.0, 20.0}).empty());
+}
+
+TEST(SetupCheck, AllowsBacking) {
+  SetupCheck setup;
+  setup.start(frame_of({}));
+  const TwoView seen = seen_by({}, {-1.0, 0.0, 0.0});
+  for (int i = 0; i < kSteps; ++i) setup.follow(seen, levelling({}));
+  EXPECT_TRUE(setup.metric_allowed());
+}
+
+TEST(SetupCheck, FindsTwoCamerasUnderOneLabel) {
+  SetupCheck setup;
+  setup.start(frame_of({}));
+  for (int i = 0; i < kSteps; ++i) {
+    setup.follow(seen_by({}, {0.5, i % 2 == 0 ? 0.5 : -0.5, 0.0}), levelling({}));
+  }
+  ASSERT_FALSE(setup.faults().empty());
+  EXPECT_NE(setup.faults()[0].find("two cameras under one label"), std::string::npos);
+}
+
+TEST(SetupCheck, SaysNothingAfterAFewSteps) {
+  SetupCheck setup;
+  setup.start(frame_of({}));
+  const TwoView seen = seen_by({0.0, 0.0, 40.0}, {1.0, 0.0, 0.0});
+  for (int i = 0; i < 15; ++i) setup.follow(seen, levelling({}));
+  EXPECT_TRUE(setup.metric_allowed());
+}
+
+TEST(SetupCheck, LooksAtNothingThatDidNotMove) {
+  SetupCheck setup;
+  setup.start(frame_of({}));
+  TwoView seen = seen_by({0.0, 0.0, 40.0}, {1.0, 0.0, 0.0});
+  for (const StepStatus status : {StepStatus::kNoMotion, StepStatus::kPredicted}) {
+    seen.status = status;
+    for (int i = 0; i < kSteps; ++i) setup.follow(seen, levelling({}));
+  }
+  EXPECT_TRUE(setup.metric_allowed());
+}
+
+TEST(SetupCheck, TakesMetresFromAnImpossibleCalibration) {
+  CameraFrame frame = frame_of({});
+  frame.camera.fx = frame.camera.fy = 5.0;
+  SetupCheck setup;
+  setup.start(frame);
+  ASSERT_EQ(setup.faults().size(), 1U);
+  EXPECT_NE(setup.faults()[0].find("--calibration"), std::string::npos);
+  StepLength length;
+  length.length = 1.0;
+  length.sigma = 0.01;
+  length.metric = true;
+  EXPECT_FALSE(setup.checked(length).metric);
+  EXPECT_EQ(setup.checked(length).length, 1.0);
+  EXPECT_EQ(setup.checked(length).sigma, 0.0);
+  ScaleCorrection correction;
+  correction.metric = true;
+  EXPECT_FALSE(setup.checked(correction).metric);
+  setup.start(frame_of({}));
+  EXPECT_TRUE(setup.checked(length).metric);
+}
+
+}  // namespace
+}  // namespace oneac

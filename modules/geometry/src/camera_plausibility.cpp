@@ -1,0 +1,60 @@
+#include "oneac/geometry/camera_plausibility.h"
+
+#include "oneac/base/number_text.h"
+#include "oneac/geometry/angles.h"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+namespace oneac {
+namespace {
+
+constexpr double kNarrowest = 10.0 * kDegree;
+constexpr double kWidest = 150.0 * kDegree;
+constexpr double kMiddleBegins = 0.25, kMiddleEnds = 0.75;  // [-] of the image's side
+constexpr double kSquarest = 1.25;  // [-] the longer focal length over the other
+
+std::string whole(double value) {
+  return fixed_text(value, 0);
+}
+
+std::optional<std::string> field_fault(const char* name, double focal, double side) {
+  const double field = 2.0 * std::atan(0.5 * side / focal);
+  if (field >= kNarrowest && field <= kWidest) return std::nullopt;
+  return std::string(name) + " = " + fixed_text(focal, 1) + " px on " + whole(side) +
+         " px of image is a field of view of " + fixed_text(field / kDegree, 1) +
+         "°, cameras of vehicles have 10° to 150°";
+}
+
+std::optional<std::string> centre_fault(const char* name, double centre, double side) {
+  if (centre >= kMiddleBegins * side && centre <= kMiddleEnds * side) return std::nullopt;
+  return std::string(name) + " = " + fixed_text(centre, 1) + " px lies beyond the middle half of " +
+         whole(side) + " px of image";
+}
+
+std::optional<std::string> aspect_fault(const PinholeCamera& camera) {
+  if (std::max(camera.fx, camera.fy) <= kSquarest * std::min(camera.fx, camera.fy)) {
+    return std::nullopt;
+  }
+  return "fx = " + fixed_text(camera.fx, 1) + " px and fy = " + fixed_text(camera.fy, 1) +
+         " px differ by more than a quarter";
+}
+
+}  // namespace
+
+std::vector<std::string> camera_faults(const PinholeCamera& camera) {
+  const double width = camera.width, height = camera.height;
+  std::vector<std::string> faults;
+  if (!(width > 0.0) || !(height > 0.0)) return faults;
+  const bool lies = width >= height;  // a strip cut out of an image is low, and sound
+  for (const auto& fault :
+       {lies ? field_fault("fx", camera.fx, width) : field_fault("fy", camera.fy, height),
+        aspect_fault(camera), centre_fault("cx", camera.cx, width),
+        centre_fault("cy", camera.cy, height)}) {
+    if (fault) faults.push_back(*fault);
+  }
+  return faults;
+}
+
+}  // namespace oneac

@@ -1,0 +1,95 @@
+#include "oneac/geometry/camera_plausibility.h"
+
+#include <gtest/gtest.h>
+
+#include <string>
+
+namespace oneac {
+namespace {
+
+/// KITTI 03's.
+PinholeCamera kitti() {
+  PinholeCamera camera;
+  camera.width = 1242;
+  camera.height = 375;
+  camera.fx = camera.fy = 721.5377;
+  camera.cx = 609.5593;
+  camera.cy = 172.854;
+  return camera;
+}
+
+/// The only fault that is found.
+std::string fault_of(const PinholeCamera& camera) {
+  const auto faults = camera_faults(camera);
+  return faults.size() == 1 ? faults.front() : std::to_string(faults.size()) + " faults";
+}
+
+bool has(const std::string& text, const std::string& part) {
+  return text.find(part) != std::string::npos;
+}
+
+TEST(CameraPlausibility, FindsNothingAgainstCamerasOfVehicles) {
+  EXPECT_TRUE(camera_faults(kitti()).empty());
+  PinholeCamera portrait = kitti();
+  std::swap(portrait.width, portrait.height);
+  std::swap(portrait.cx, portrait.cy);
+  EXPECT_TRUE(camera_faults(portrait).empty());
+  PinholeCamera wide = kitti();
+  wide.fx = wide.fy = 1242 / 2.0 / 3.0;  // 143°
+  EXPECT_TRUE(camera_faults(wide).empty());
+}
+
+TEST(CameraPlausibility, NamesTheKOfALargerImage) {
+  PinholeCamera halved = kitti();
+  halved.width /= 2;
+  halved.height /= 2;
+  const auto faults = camera_faults(halved);
+  ASSERT_EQ(faults.size(), 2U);
+  EXPECT_TRUE(has(faults[0], "cx = 609.6 px")) << faults[0];
+  EXPECT_TRUE(has(faults[0], "621 px")) << faults[0];
+  EXPECT_TRUE(has(faults[1], "cy")) << faults[1];
+}
+
+TEST(CameraPlausibility, NamesASwappedPrincipalPoint) {
+  PinholeCamera swapped = kitti();
+  std::swap(swapped.cx, swapped.cy);
+  EXPECT_EQ(camera_faults(swapped).size(), 2U);
+}
+
+TEST(CameraPlausibility, NamesAFieldOfViewThatNoCameraHas) {
+  PinholeCamera camera = kitti();
+  camera.fx = camera.fy = 5.0;
+  EXPECT_TRUE(has(fault_of(camera), "179.1°")) << fault_of(camera);
+  camera.fx = camera.fy = 7500.0;  // 9.5° of width
+  EXPECT_TRUE(has(fault_of(camera), "9.5°")) << fault_of(camera);
+}
+
+TEST(CameraPlausibility, JudgesTheFieldOfViewByTheLongerSide) {
+  PinholeCamera strip = kitti();
+  strip.height = 100;  // 7.9°
+  strip.cy = 50.0;
+  EXPECT_TRUE(camera_faults(strip).empty());
+}
+
+TEST(CameraPlausibility, NamesPixelsThatAreNotSquare) {
+  PinholeCamera camera = kitti();
+  camera.fy = camera.fx / 1.3;
+  EXPECT_TRUE(has(fault_of(camera), "differ")) << fault_of(camera);
+  camera.fy = camera.fx * 1.3;
+  EXPECT_TRUE(has(fault_of(camera), "differ")) << fault_of(camera);
+  camera.fy = camera.fx * 1.2;
+  EXPECT_TRUE(camera_faults(camera).empty());
+}
+
+TEST(CameraPlausibility, TheMiddleHalfEndsAtAQuarter) {
+  PinholeCamera camera = kitti();
+  camera.cx = 0.26 * camera.width;
+  EXPECT_TRUE(camera_faults(camera).empty());
+  camera.cx = 0.24 * camera.width;
+  EXPECT_TRUE(has(fault_of(camera), "cx"));
+  camera.cx = 0.76 * camera.width;
+  EXPECT_TRUE(has(fault_of(camera), "cx"));
+}
+
+}  // namespace
+}  // namespace oneac
