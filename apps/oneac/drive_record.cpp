@@ -7,6 +7,23 @@
 #include <utility>
 
 namespace oneac::app {
+namespace {
+
+/// The step as it is without metres: |t| = 1 or 0, nothing known along t.
+void withdraw_metres_of(StepResult& step) {
+  const double length = step.pose.t.norm();
+  if (step.metric && length > 0.0) {
+    step.pose.t /= length;
+    const Eigen::Matrix3d across =
+        (Eigen::Matrix3d::Identity() - step.pose.t * step.pose.t.transpose()) / length;
+    step.covariance.rightCols<3>() *= across;
+    step.covariance.bottomRows<3>() = across * step.covariance.bottomRows<3>().eval();
+  }
+  step.metric = false;
+  step.length_sigma = 0.0;
+}
+
+}  // namespace
 
 bool DriveRecord::has_scale() const {
   // A standing step has zero metres without any scale.
@@ -25,10 +42,7 @@ void DriveRecord::take(Settled settled) {
 void DriveRecord::withdraw_metres() {
   for (FrameResult& frame : frames) {
     if (!frame.step) continue;
-    StepResult& step = *frame.step;
-    if (step.metric && step.pose.t.norm() > 0.0) step.pose.t.normalize();
-    step.metric = false;
-    step.length_sigma = 0.0;
+    withdraw_metres_of(*frame.step);
   }
   for (Keyframe& keyframe : keyframes) keyframe.metric = false;
 }

@@ -78,6 +78,18 @@ bool FeatureMask::usable(const Eigen::Vector2d& u) const {
   return picture_.row(row)[column] >= kUsed;
 }
 
+GreyImage FeatureMask::picture(int width, int height) const {
+  if (polygons_.empty() && picture_.empty()) return {};
+  constexpr std::uint8_t kWhite = 255;
+  GreyImage picture(width, height, kWhite);
+  for (int v = 0; v < height; ++v) {
+    for (int u = 0; u < width; ++u) {
+      if (!usable(Eigen::Vector2d(u, v))) picture.row(v)[u] = 0;
+    }
+  }
+  return picture;
+}
+
 void FeatureMask::require_size(int width, int height) const {
   if (picture_.empty() || (picture_.width() == width && picture_.height() == height)) return;
   throw InputError(path_,

@@ -18,6 +18,8 @@ class FeatureMask {
   explicit FeatureMask(const MaskOptions& options);
 
   [[nodiscard]] bool usable(const Eigen::Vector2d& u) const;
+  /// Dark where pixels are not used, of this size; empty where all are.
+  [[nodiscard]] GreyImage picture(int width, int height) const;
   /// @throws InputError when the picture's size is not that of the camera's images
   void require_size(int width, int height) const;
 

@@ -11,6 +11,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <stdexcept>
 #include <utility>
 
@@ -32,6 +33,17 @@ double median_flow(const std::vector<KltTrack>& tracks,
     if (matches[i]) flows.push_back((matches[i]->warp.centre - tracks[i].u).norm());
   if (flows.empty()) return 0.0;
   return upper_median(std::move(flows));
+}
+
+/// Dark where either is; an empty picture is dark nowhere.
+GreyImage darker(GreyImage a, GreyImage b) {
+  if (a.empty()) return b;
+  if (b.empty()) return a;
+  for (int v = 0; v < a.height(); ++v) {
+    std::transform(a.row(v), a.row(v) + a.width(), b.row(v), a.row(v),
+                   [](std::uint8_t x, std::uint8_t y) { return std::min(x, y); });
+  }
+  return a;
 }
 
 Correspondence correspondence_of(const KltTrack& track, const PatchMatch& match) {
@@ -80,8 +92,10 @@ TrackedPair KltTracker::advance(std::shared_ptr<const FrameFeatures> now, const 
 }
 
 void KltTracker::learn_car(const KltFrame& now, const MotionHint& hint) {
-  if (!options_.mask.learn) return;
-  car_mask_.observe(now.pyramid, hint);
+  const int width = now.pyramid.width(), height = now.pyramid.height();
+  if (!anchor_) unused_ = mask_.picture(width, height);
+  if (!options_.mask.learn || !car_mask_.observe(now.pyramid, hint)) return;
+  unused_ = darker(mask_.picture(width, height), car_mask_.picture());
   tracks_.erase(
       std::remove_if(tracks_.begin(), tracks_.end(),
                      [this](const KltTrack& track) { return !car_mask_.usable(track.u); }),

@@ -30,6 +30,7 @@ class KltTracker : public AcTracker {
                                     const MotionHint& hint) override;
   void reset() override;
   [[nodiscard]] GreyImage car_mask() const override { return car_mask_.picture(); }
+  [[nodiscard]] ImageView unused() const override { return unused_.view(); }
 
  private:
   using Matches = std::vector<std::optional<PatchMatch>>;
@@ -56,6 +57,7 @@ class KltTracker : public AcTracker {
   FeatureOptions options_;
   FeatureMask mask_;
   CarMask car_mask_;
+  GreyImage unused_;  ///< by both
   Rematcher rematcher_;
   std::shared_ptr<const KltFrame> anchor_;
   std::vector<KltTrack> tracks_;  ///< oldest first

@@ -31,6 +31,8 @@ MatchedTracker::MatchedTracker(const FeatureOptions& options,
 std::shared_ptr<const FrameFeatures> MatchedTracker::prepare(const ImageView& image) const {
   mask_.require_size(image.width, image.height);
   auto frame = std::make_shared<Frame>();
+  frame->width = image.width;
+  frame->height = image.height;
   frame->features = extractor_->prepare(image);
   if (align_) frame->pyramid = build_pyramid(image, kAlignmentLevels);
   return frame;
@@ -52,6 +54,7 @@ TrackedPair MatchedTracker::advance(std::shared_ptr<const FrameFeatures> now, co
   const auto frame = std::dynamic_pointer_cast<const Frame>(now);
   if (!frame) throw std::invalid_argument("advance: the frame was not prepared by this tracker");
   TrackedPair pair;
+  if (!last_) unused_ = mask_.picture(frame->width, frame->height);
   if (last_) {
     const std::map<Place, std::uint64_t> known = std::move(tracks_);
     tracks_.clear();

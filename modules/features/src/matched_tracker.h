@@ -24,11 +24,13 @@ class MatchedTracker : public AcTracker {
   [[nodiscard]] TrackedPair advance(std::shared_ptr<const FrameFeatures> now,
                                     const MotionHint& hint) override;
   void reset() override;
+  [[nodiscard]] ImageView unused() const override { return unused_.view(); }
 
  private:
   struct Frame : FrameFeatures {
     std::shared_ptr<const FrameFeatures> features;
     ImagePyramid pyramid;  ///< when aligned
+    int width = 0, height = 0;  ///< [px]
   };
   using Place = std::pair<double, double>;  ///< a feature's centre: the same bytes in both pairs
 
@@ -39,6 +41,7 @@ class MatchedTracker : public AcTracker {
 
   FeatureOptions options_;
   FeatureMask mask_;
+  GreyImage unused_;  ///< by the mask
   std::unique_ptr<AcExtractor> extractor_;
   bool align_;
   std::shared_ptr<const Frame> last_;

@@ -84,6 +84,7 @@ FrameResult FrontEnd::process(PreparedFrame prepared) {
     const StageTimer timer(features_ms);
     road = {previous_road_, road_image(prepared.features, frame.image.view()), frame.camera, {}};
     correspondences_ = tracker_->advance(std::move(prepared.features), hint());
+    road.mask = tracker_->unused();
     if (options_.scale.source == "stereo")
       correspondences_ = with_stereo_depths(std::move(correspondences_), frame);
     pair = normalised(correspondences_, previous_camera_, frame);

@@ -31,7 +31,7 @@ StepResult step_result(const FrameStamp& before, const FrameStamp& now, const Tw
   step.metric = length.metric;
   step.length = length.length;
   step.length_sigma = length.sigma;
-  step.covariance = step_covariance(step, seen.covariance);
+  step.covariance = step_covariance(step, seen.covariance, length.sigma_m);
   step.acs = seen.pair.size();
   step.inliers = seen.inlier_count;
   step.ground_acs = length.ground_acs;

@@ -73,18 +73,19 @@ void CarMask::set_size(const ImagePyramid& now) {
   car_.assign(grid_.size(), false);
 }
 
-void CarMask::observe(const ImagePyramid& now, const MotionHint& hint) {
-  if (now.levels.size() <= kCoarse) return;
+bool CarMask::observe(const ImagePyramid& now, const MotionHint& hint) {
+  if (now.levels.size() <= kCoarse) return false;
   set_size(now);
   const auto outlook = CarMask::outlook(hint);
   const bool adds = outlook && travels(now.levels[kCoarse], *outlook);
   before_.assign(1, now.levels[kCoarse]);
-  if (!adds) return;
+  if (!adds) return false;
   const int first = outlook->first_row_below(-std::sin(kDistant), width_, height_);
   structure_.add(now.levels[kFine], outlook->foe / (1 << kFine), first / (1 << kFine));
-  if (++undecided_ < kEvery) return;
+  if (++undecided_ < kEvery) return false;
   undecided_ = 0;
   decide(*outlook);
+  return true;
 }
 
 bool CarMask::travels(const PyramidLevel& now, const Outlook& outlook) const {

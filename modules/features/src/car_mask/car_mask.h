@@ -24,7 +24,8 @@ class CarMask {
  public:
   /// Takes an image in order of time. @param hint  of the step to this image: camera, tilt and,
   /// where known, direction of travel
-  void observe(const ImagePyramid& now, const MotionHint& hint);
+  /// @return whether it was decided anew what the car is
+  bool observe(const ImagePyramid& now, const MotionHint& hint);
   /// Whether this place of the image is not known to be the car. [px of level 0]
   [[nodiscard]] bool usable(const Eigen::Vector2d& u) const;
   /// Black where the car is, white elsewhere; empty while nothing was learned.

@@ -59,7 +59,7 @@ std::optional<RoadTravel> road_travel(const RoadPair& road, const TwoView& seen,
   step.roll_sigma = std::max(prior.first.roll_sigma, step.roll_sigma);
   expect(prior, height, directed, step);
   const RoadAlignment aligned =
-      align_road(road.first, road.second, road.camera, step, road.mask.view());
+      align_road(road.first, road.second, road.camera, step, road.mask);
   if (aligned.status != RoadStatus::kMeasured) return std::nullopt;
   const double reach = kBeyond * aligned.sigma;  // the fit may leave what was searched
   if (aligned.length < step.min_length - reach || aligned.length > step.max_length + reach) {

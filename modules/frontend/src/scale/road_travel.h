@@ -19,7 +19,7 @@ namespace oneac {
 struct RoadPair {
   RoadImage first, second;
   PinholeCamera camera;
-  GreyImage mask;  ///< dark where pixels are the car's own; empty: none known
+  ImageView mask;  ///< dark where pixels are masked or the car's own; empty: all are road or scene
 
   [[nodiscard]] bool empty() const { return first.empty() || second.empty(); }
 };

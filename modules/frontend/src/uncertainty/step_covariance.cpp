@@ -1,5 +1,7 @@
 #include "uncertainty/step_covariance.h"
 
+#include <algorithm>
+
 namespace oneac {
 namespace {
 
@@ -24,11 +26,12 @@ Matrix6 of_turn_alone(double sigma) {
   return covariance;
 }
 
-Matrix6 standing(const Matrix6& of_turn) {
+Matrix6 standing(const Matrix6& of_turn, double rest_sigma) {
   Matrix6 covariance = of_turn.isZero(0.0) ? of_turn_alone(kStandingTurn) : of_turn;
   covariance.rightCols<3>().setZero();
   covariance.bottomRows<3>().setZero();
-  covariance.bottomRightCorner<3, 3>().diagonal().setConstant(squared(kStandingWay));
+  covariance.bottomRightCorner<3, 3>().diagonal().setConstant(
+      squared(std::max(kStandingWay, rest_sigma)));
   return covariance;
 }
 
@@ -43,9 +46,11 @@ Matrix6 expected(const Eigen::Vector3d& direction) {
 
 }  // namespace
 
-Matrix6 step_covariance(const StepResult& step, const Matrix6& of_direction) {
+Matrix6 step_covariance(const StepResult& step, const Matrix6& of_direction, double rest_sigma) {
   const double length = step.pose.t.norm();
-  if (step.status == StepStatus::kNoMotion || !(length > 0.0)) return standing(of_direction);
+  if (step.status == StepStatus::kNoMotion || !(length > 0.0)) {
+    return standing(of_direction, rest_sigma);
+  }
   const Eigen::Vector3d direction = step.pose.t / length;
   const bool told = step.status == StepStatus::kOk && !of_direction.isZero(0.0);
   Matrix6 covariance = told ? of_direction : expected(direction);
