@@ -51,6 +51,7 @@ StepLength Scale::decided(const StepInTime& step,
   }
   StepLength goes_on = held(step);
   goes_on.conflict = result.conflict;
+  goes_on.refused = result.refused;
   if (!told.empty()) goes_on.ground_acs = told.front().ground_acs;
   return goes_on;
 }
@@ -59,16 +60,19 @@ StepLength Scale::decided(const StepInTime& step,
 StepLength Scale::chosen(const std::vector<StepLength>& told, const StepInTime& step) const {
   const auto expected = inertia_.expect(step.begin_s, step.end_s);
   std::vector<StepLength> believed;
-  bool map_refused = false;
+  StepLength result;
   for (const StepLength& length : told) {
     const bool slow = !(step.seconds() > 0.0) || !(length.length > kFastestCar * step.seconds());
     const bool possible = slow && (!expected || expected->allows(length.length, length.sigma_m));
     if (length.metric && possible) believed.push_back(length);
-    if (length.metric && !possible && length.source == LengthSource::kMap) map_refused = true;
+    if (!length.metric || possible) continue;
+    result.refused = true;
+    if (length.source == LengthSource::kMap) result.conflict = true;
   }
-  StepLength result;
+  const bool conflict = result.conflict, refused = result.refused;
   if (!believed.empty()) result = believed.front();
-  result.conflict = map_refused;
+  result.conflict = conflict;
+  result.refused = refused;
   if (believed.size() < 2) return result;
   const double off = std::abs(believed[0].length - believed[1].length);
   if (off <= kContradiction * std::hypot(believed[0].sigma_m, believed[1].sigma_m)) return result;
@@ -116,7 +120,7 @@ StepLength Scale::at_rest(const StepInTime& step) const {
       return held(step);
     }
     result.metric = !moves && told->sigma <= kSureRest;
-    result.sigma_m = told->sigma;
+    result.sigma_m = std::hypot(told->sigma, told->length);  // what it may have crept
     return result;
   }
   if (expected && expected->least > kStillness) return held(step);

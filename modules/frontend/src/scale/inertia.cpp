@@ -1,7 +1,10 @@
 #include "inertia.h"
 
+#include "oneac/base/median.h"
+
 #include <algorithm>
 #include <cmath>
+#include <vector>
 
 namespace oneac {
 namespace {
@@ -9,11 +12,32 @@ namespace {
 constexpr double kGate = 3.0;  // [σ] of measurements and of the speed itself
 // [m/s] speeds are never surer than this: engines and brakes jerk within a step.
 constexpr double kSurest = 0.05;
+// [intervals] of which the median is taken, and before which nothing is known of the shutter.
+constexpr double kClear = 0.25;  // [intervals] nearer to a whole number it is no other one
+constexpr std::size_t kIntervals = 25, kFewestIntervals = 5;
 
 }  // namespace
 
 bool ExpectedLength::allows(double length_m, double sigma_m) const {
   return length_m >= least - kGate * sigma_m && length_m <= most + kGate * sigma_m;
+}
+
+void ShutterClock::tell(double seconds) {
+  if (!(seconds > 0.0)) return;
+  newest_.push_back(seconds);
+  if (newest_.size() > kIntervals) newest_.pop_front();
+  if (newest_.size() < kFewestIntervals) return;
+  interval_ = upper_median(std::vector<double>(newest_.begin(), newest_.end()));
+}
+
+StepTime ShutterClock::between(double seconds) const {
+  if (!(interval_ > 0.0)) return {seconds, 0.0};
+  // Between two whole numbers either may be true.
+  const double whole = seconds / interval_;
+  const double fewer = interval_ * std::max(1.0, std::floor(whole + kClear));
+  const double more = interval_ * std::max(1.0, std::ceil(whole - kClear));
+  const double least = std::min(seconds, fewer), most = std::max(seconds, more);
+  return {0.5 * (most + least), 0.5 * (most - least)};
 }
 
 Inertia::Inertia(const ScaleOptions& options, double memory_s)
@@ -27,20 +51,24 @@ std::optional<ExpectedLength> Inertia::expect(double begin_s, double end_s) cons
   if (!known_ || !(seconds > 0.0) || age > memory_s_) return std::nullopt;
   const double reach = max_acceleration_ * std::abs(age) + kGate * sigma_;
   ExpectedLength expected;
-  expected.length = speed_ * seconds;
-  expected.sigma = std::hypot(sigma_, acceleration_ * age) * seconds;
-  expected.least = std::max(0.0, speed_ - reach) * seconds;
-  expected.most = (speed_ + reach) * seconds;
+  const StepTime time = clock_.between(seconds);
+  expected.length = speed_ * time.mean;
+  expected.sigma =
+      std::hypot(std::hypot(sigma_, acceleration_ * age) * time.mean, speed_ * time.half_range);
+  expected.least = std::max(0.0, speed_ - reach) * time.least();
+  expected.most = (speed_ + reach) * time.most();
   return expected;
 }
 
 void Inertia::tell(double begin_s, double end_s, double length, double sigma) {
+  const double middle = 0.5 * (begin_s + end_s);
   const double seconds = end_s - begin_s;
   if (!(seconds > 0.0) || !std::isfinite(length) || !std::isfinite(sigma)) return;
-  const double measured = length / seconds;
-  const double noise = std::max(sigma / seconds, kSurest);
-  if (const auto before = expect(begin_s, end_s)) {
-    const double prior = before->sigma / seconds;
+  const StepTime time = clock_.between(seconds);
+  const double measured = length / time.mean;
+  const double noise = std::max(std::hypot(sigma, measured * time.half_range) / time.mean, kSurest);
+  if (expect(begin_s, end_s)) {
+    const double prior = std::hypot(sigma_, acceleration_ * (middle - time_s_));
     const double gain = prior * prior / (prior * prior + noise * noise);
     speed_ += gain * (measured - speed_);
     sigma_ = std::sqrt(gain) * noise;
@@ -49,7 +77,7 @@ void Inertia::tell(double begin_s, double end_s, double length, double sigma) {
     sigma_ = noise;
   }
   known_ = true;
-  time_s_ = 0.5 * (begin_s + end_s);
+  time_s_ = middle;
 }
 
 }  // namespace oneac

@@ -51,6 +51,7 @@ struct StepLength {
   bool metric = false;
   LengthSource source = LengthSource::kNone;  ///< whose word it is
   bool conflict = false;                      ///< road and map contradict each other
+  bool refused = false;                       ///< somebody told metres that inertia does not allow
   std::size_t landmarks = 0;                  ///< that carried it
   std::size_t ground_acs = 0;                 ///< on the road, where it was asked
 };

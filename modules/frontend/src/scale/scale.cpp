@@ -95,11 +95,12 @@ StepLength Scale::length_of(const StepInTime& step,
 }
 
 void Scale::remember(const StepInTime& step, const StepLength& length) {
+  inertia_.tick(step.begin_s, step.end_s);
   const bool measured = length.metric && length.source != LengthSource::kHeld;
   if (step.road) conflicts_ = length.conflict ? conflicts_ + 1 : 0;
   if (length.source != LengthSource::kHeld || length.metric)
     contradicted_ = 0;
-  else if (inertia_.expect(step.begin_s, step.end_s) && ++contradicted_ >= kPatience)
+  else if (length.refused && ++contradicted_ >= kPatience)
     inertia_.forget();
   if (measured) inertia_.tell(step.begin_s, step.end_s, length.length, length.sigma_m);
   if (length.metric && step.seconds() > 0.0) {
@@ -109,9 +110,9 @@ void Scale::remember(const StepInTime& step, const StepLength& length) {
   const StepLength road = by_road_image(step);
   const bool own = length.metric && length.source != LengthSource::kMap;
   const StepLength& told = road.metric ? road : length;
-  interval_.whole = interval_.whole && (road.metric || own);
+  if (!road.metric && !own) interval_.untold += told.length;
   interval_.way += told.length;
-  if (told.length > 0.0) interval_.relative_sigma = std::max(interval_.relative_sigma, told.sigma);
+  interval_.sigma_m += told.sigma_m;
 }
 
 ScaleCorrection Scale::correct(const MapLengths& map, const Levelling& first, double focal_px) {
@@ -160,8 +161,8 @@ std::optional<ScaleMeasurement> Scale::by_road(const KeyframePair& pair, const L
 
 std::optional<ScaleMeasurement> Scale::by_interval(const KeyframePair& pair) const {
   const double in_map = pair.T_2_1.t.norm();
-  if (!interval_.whole || !(interval_.way > 0.0) || !(in_map > 0.0)) return std::nullopt;
-  return ScaleMeasurement{interval_.way / in_map, std::max(interval_.relative_sigma, 1e-3),
+  if (!interval_.is_told() || !(in_map > 0.0)) return std::nullopt;
+  return ScaleMeasurement{interval_.way / in_map, std::max(interval_.sigma(), 1e-3),
                           LengthSource::kRoadImage, 0};
 }
 

@@ -11,6 +11,7 @@
 #include "oneac/frontend/scale_filter.h"
 #include "oneac/geometry/camera_frame.h"
 
+#include <cmath>
 #include <optional>
 #include <vector>
 
@@ -61,7 +62,7 @@ class Scale {
     return inertia_.expect(begin_s, end_s);
   }
   /// Every step since the last keyframe was measured.
-  [[nodiscard]] bool lengths_hold() const { return interval_.whole || filter_.is_metric(); }
+  [[nodiscard]] bool lengths_hold() const { return interval_.is_told() || filter_.is_metric(); }
   /// Road and map have contradicted each other for too long: the map should begin anew.
   [[nodiscard]] bool map_is_refuted() const { return conflicts_ >= kPatience; }
   /// The length of the step, which is then remembered as the newest.
@@ -83,11 +84,18 @@ class Scale {
   /// [σ] Two lengths of one step that are farther apart contradict each other.
   static constexpr double kContradiction = 4.0;
 
+  static constexpr double kMostUntold = 0.2;  ///< [-] share of a way that is still told by the rest
+  static constexpr double kUntold = 0.3;      ///< relative 1σ of a length that inertia alone told
+
   /// Since the last keyframe: the way as others than the map tell it.
   struct Interval {
-    double way = 0.0;             ///< [m]
-    double relative_sigma = 0.0;  ///< the largest of its steps: their errors are alike
-    bool whole = true;            ///< somebody told every step
+    double way = 0.0;      ///< [m]
+    double sigma_m = 0.0;  ///< [m] the sum of those of its steps: their errors are alike
+    double untold = 0.0;   ///< [m] of it that nobody told
+
+    /// Somebody told as good as all of it.
+    [[nodiscard]] bool is_told() const { return way > 0.0 && untold <= kMostUntold * way; }
+    [[nodiscard]] double sigma() const { return std::hypot(sigma_m, untold * kUntold) / way; }
   };
 
   [[nodiscard]] StepLength decided(const StepInTime& step,
