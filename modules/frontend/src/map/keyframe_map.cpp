@@ -66,7 +66,7 @@ std::optional<MapLengths> KeyframeMap::move(const FrameStamp& frame, const Relat
   // A camera that only turns adds no baseline: its keyframe would triangulate noise.
   if (!window_ || seen.status != StepStatus::kOk) return std::nullopt;
   if (!window_->needs_keyframe(T_cam_map_, frame.time_s - keyframe_time_s_)) return std::nullopt;
-  way_ = (T_cam_map_ * window_->keyframes().back().T_cam_map.inverse()).t.norm();
+  T_from_before_ = T_cam_map_ * window_->keyframes().back().T_cam_map.inverse();
   window_->add_keyframe(frames_ - 1, T_cam_map_);
   keyframe_time_s_ = frame.time_s;
   static_cast<void>(window_->refine(R_level_cam, lengths_hold));
@@ -81,8 +81,10 @@ void KeyframeMap::correct(const ScaleCorrection& correction) {
   }
   const WindowKeyframe& keyframe = window_->keyframes().back();
   T_cam_map_ = keyframe.T_cam_map;
-  settling_.add_keyframe(
-      keyframe.id, {newest_.index, newest_.time_s, segment_, false, 0.0, way_ * correction.factor});
+  RelativePose T_from_before = T_from_before_;
+  T_from_before.t *= correction.factor;
+  settling_.add_keyframe(keyframe.id,
+                         {newest_.index, newest_.time_s, segment_, false, 0.0, T_from_before});
   settling_.set_metric(correction.metric, correction.sigma);
 }
 

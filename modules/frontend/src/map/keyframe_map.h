@@ -83,7 +83,7 @@ class KeyframeMap {
   std::size_t segment_ = 0;       ///< raised when the map began anew
   bool lost_ = false;             ///< the last step was not carried by its images
   double keyframe_time_s_ = 0.0;  ///< of the last keyframe
-  double way_ = 0.0;              ///< [map] to the newest one, before the window was adjusted
+  RelativePose T_from_before_;    ///< the newest one in that before, before the window was adjusted
 };
 
 }  // namespace oneac

@@ -1,7 +1,9 @@
 #include "settling.h"
 
 #include <Eigen/Cholesky>
+#include <Eigen/Geometry>
 
+#include <algorithm>
 #include <cmath>
 
 namespace oneac {
@@ -70,7 +72,7 @@ void Settling::rescale(double factor) {
     // The map is rescaled about its oldest keyframe: the step that ends there keeps its length.
     if (id != notes_.begin()->first) note.log_factor += (note.share - 1.0) * change;
   }
-  for (auto& [id, note] : notes_) note.way *= factor;
+  for (auto& [id, note] : notes_) note.T_from_before.t *= factor;
   for (Waiting& waiting : frames_) waiting.T_cam_keyframe.t *= factor;
 }
 
@@ -106,19 +108,40 @@ void Settling::settle_oldest(LocalMap& map, Settled& settled) {
   settled.keyframes.push_back(std::move(keyframe));
 }
 
+Settling::Bend Settling::bend_after(const WindowKeyframe& keyframe, const LocalMap& map) const {
+  Bend bend;
+  if (notes_.empty() || map.keyframes().empty()) return bend;
+  const Note& next = notes_.begin()->second;
+  const double before = next.T_from_before.t.norm();
+  RelativePose now = map.keyframes().front().T_cam_map * keyframe.T_cam_map.inverse();
+  const double stretched = stretch(now.t.norm(), before);
+  bend.factor = std::exp(next.log_factor) * stretched;
+  if (!(before > 0.0) || stretched == 1.0) return bend;
+  now.t *= std::exp(next.log_factor);
+  RelativePose led = next.T_from_before;
+  led.t *= bend.factor;
+  bend.length = led.t.norm();
+  bend.remainder = led.inverse() * now;
+  return bend;
+}
+
+RelativePose Settling::Bend::of(RelativePose T_cam_keyframe) const {
+  T_cam_keyframe.t *= factor;
+  if (!(length > 0.0)) return T_cam_keyframe;
+  const double share = std::min(T_cam_keyframe.t.norm() / length, 1.0);
+  const Eigen::AngleAxisd turn(remainder.R);
+  const RelativePose part{rotation_from_vector(share * turn.angle() * turn.axis()),
+                          share * remainder.t};
+  return T_cam_keyframe * part;
+}
+
 void Settling::settle_frames(const WindowKeyframe& keyframe, const LocalMap& map,
                              Settled& settled) {
-  // They lie on the step that ends in the next keyframe, and stretch with it.
-  double factor = 1.0;
-  if (!notes_.empty() && !map.keyframes().empty()) {
-    const Note& next = notes_.begin()->second;
-    const RelativePose step = map.keyframes().front().T_cam_map * keyframe.T_cam_map.inverse();
-    factor = std::exp(next.log_factor) * stretch(step.t.norm(), next.way);
-  }
+  // They lie on the step that ends in the next keyframe, and bend with it.
+  const Bend bend = bend_after(keyframe, map);
   while (!frames_.empty() && frames_.front().keyframe <= keyframe.id) {
-    RelativePose T_cam_keyframe = frames_.front().T_cam_keyframe;
-    T_cam_keyframe.t *= factor;
-    Eigen::Isometry3d T = in_first_camera(T_cam_keyframe * keyframe.T_cam_map);
+    Eigen::Isometry3d T =
+        in_first_camera(bend.of(frames_.front().T_cam_keyframe) * keyframe.T_cam_map);
     T.translation() += offset_;
     settled.frames.push_back({frames_.front().frame, T});
     frames_.pop_front();

@@ -21,7 +21,8 @@ class Settling {
     std::size_t segment = 0;
     bool metric = false;
     double scale_sigma = 0.0;  ///< relative 1σ of lengths
-    double way = 0.0;  ///< [map] from the keyframe before, as its frames went before adjustments
+    /// The keyframe in the one before, as its frames led there before adjustments [map].
+    RelativePose T_from_before{};
     /// How far today's measurements speak for the step that ended here, and ...
     double share = 1.0;
     double log_factor = 0.0;  ///< ... what its length in the map has to be multiplied with for it
@@ -42,6 +43,14 @@ class Settling {
   [[nodiscard]] const Eigen::Vector3d& offset() const { return offset_; }
 
  private:
+  /// What has become of a step between two keyframes.
+  struct Bend {
+    double factor = 1.0;     ///< of its lengths
+    double length = 0.0;     ///< [map] of the step, in which ...
+    RelativePose remainder;  ///< ... what is left grows from nothing; in the first keyframe
+    [[nodiscard]] RelativePose of(RelativePose T_cam_keyframe) const;
+  };
+  [[nodiscard]] Bend bend_after(const WindowKeyframe& keyframe, const LocalMap& map) const;
   void settle_frames(const WindowKeyframe& keyframe, const LocalMap& map, Settled& settled);
   struct Waiting {
     std::size_t frame;
