@@ -120,9 +120,9 @@ TEST(Scale, TrustsAMapLessThatWasCarriedBadly) {
   EXPECT_LT(share_after(0.2), 0.5 * share_after(0.01));
 }
 
-StepInTime rest(std::optional<RoadTravel> road) {
+StepInTime rest(std::optional<MeasuredTravel> road) {
   StepInTime resting = step(StepStatus::kNoMotion, 10.1, 1.0);
-  resting.road = road;
+  resting.direct = road;
   return resting;
 }
 
@@ -136,7 +136,8 @@ Scale driving() {
 
 TEST(Scale, ACameraWhoseRoadRestsDrivesZeroMetres) {
   Scale scale = started(by("height"));
-  const StepLength length = scale.length_of(rest(RoadTravel{0.001, 0.004}), {});
+  const StepLength length =
+      scale.length_of(rest(MeasuredTravel{0.001, 0.004, LengthSource::kRoadImage, true}), {});
   EXPECT_TRUE(length.metric);
   EXPECT_EQ(length.length, 0.0);
   EXPECT_EQ(length.sigma_m, 0.004) << "zero is a measurement";
@@ -150,7 +151,8 @@ TEST(Scale, ARestThatNobodySawOnTheRoadIsNotMetric) {
 
 TEST(Scale, ARestWhoseRoadMovesIsNone) {
   Scale scale = driving();
-  const StepLength length = scale.length_of(rest(RoadTravel{0.95, 0.03}), {});
+  const StepLength length =
+      scale.length_of(rest(MeasuredTravel{0.95, 0.03, LengthSource::kRoadImage, true}), {});
   EXPECT_EQ(length.length, 0.95);
   EXPECT_EQ(length.source, LengthSource::kRoadImage);
   EXPECT_TRUE(length.metric);
@@ -188,7 +190,7 @@ TEST(Scale, RoadAndMapThatDisagreeRefuteTheMap) {
   static_cast<void>(scale.correct({road(1.0, 1.0), {}}, {}, kFocal));
   for (int i = 1; i < 6; ++i) {
     StepInTime next = step(StepStatus::kOk, 10.0 + 0.1 * i, 1.0);
-    next.road = RoadTravel{1.0, 0.03};
+    next.direct = MeasuredTravel{1.0, 0.03, LengthSource::kRoadImage, true};
     const StepLength length = scale.length_of(next, {carried(0.1)});
     EXPECT_EQ(length.length, 1.0) << "the map lost its scale";
     EXPECT_EQ(scale.map_is_refuted(), i >= 5) << i << ' ' << length.conflict;
