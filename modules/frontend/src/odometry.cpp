@@ -66,6 +66,13 @@ TwoView as_it_moved(TwoView seen, const StepLength& length, const Eigen::Vector3
   return seen;
 }
 
+Eigen::Isometry3d as_isometry(const RelativePose& pose) {
+  Eigen::Isometry3d T = Eigen::Isometry3d::Identity();
+  T.linear() = Eigen::Quaterniond(pose.R).normalized().toRotationMatrix();
+  T.translation() = pose.t;
+  return T;
+}
+
 /// The motion with its length as used, whether metres or not.
 RelativePose motion_of(const StepResult& step) {
   RelativePose motion = step.pose;
@@ -89,6 +96,7 @@ FrameResult frame_result(const FrameStamp& now, FrameInMap in_map, const Attitud
 FrameResult with_step(FrameResult result, StepResult step,
                       const std::optional<ScaleCorrection>& correction) {
   if (correction && correction->ground_acs > 0) step.ground_acs = correction->ground_acs;
+  if (correction) result.rescaled = correction->factor;
   result.step = step;
   return result;
 }
@@ -145,7 +153,10 @@ FrameResult Odometry::integrate(const FrameStamp& now, TwoView seen, const RoadP
                                  scale_.lengths_hold());
   const auto correction = scale_correction(lengths, seen.focal_px);
   last_motion_ = {motion.R, motion.t * (correction ? correction->factor : 1.0)};
-  return with_step(frame_result(now, map_.settle(correction), attitude_), step, correction);
+  T_odom_cam_ = T_odom_cam_ * as_isometry(motion.inverse());
+  FrameResult result = frame_result(now, map_.settle(correction), attitude_);
+  result.T_odom_cam = T_odom_cam_;
+  return with_step(std::move(result), step, correction);
 }
 
 std::optional<ScaleCorrection> Odometry::scale_correction(const std::optional<MapLengths>& lengths,

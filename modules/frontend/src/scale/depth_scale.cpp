@@ -5,12 +5,7 @@
 #include <cmath>
 
 namespace oneac {
-namespace {
-
-// [-] Share of a stereo depth's 1σ that its neighbours have, too: rectification.
-constexpr double kCommon = 0.9;
-
-}  // namespace
+namespace {}  // namespace
 
 std::optional<ScaleMeasurement> scale_by_depths(const std::vector<DepthComparison>& depths,
                                                 std::size_t least) {
@@ -19,7 +14,7 @@ std::optional<ScaleMeasurement> scale_by_depths(const std::vector<DepthCompariso
   for (const DepthComparison& depth : depths) {
     if (!(depth.measured.z > 0.0) || !(depth.in_map > 0.0)) continue;
     const double ratio = depth.measured.z / depth.in_map;
-    common += kCommon * depth.measured.sigma;
+    common += depth.measured.sigma;  // by rectification, which does not average out
     votes.push_back({ratio, ratio * depth.measured.sigma, depth.in_map_sigma});
   }
   if (votes.empty() || votes.size() < least) return std::nullopt;
