@@ -4,6 +4,7 @@
 
 #include "oneac/base/thread_clock.h"
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
@@ -47,15 +48,40 @@ StepInTime step_in_time(const FrameStamp& before, const FrameStamp& now, const T
   step.begin_s = before.time_s;
   step.end_s = now.time_s;
   step.expected = last_motion;
-  if (seen.motion && std::isfinite(seen.motion->length_sigma)) {
-    step.evidence = MeasuredTravel{std::abs(seen.motion->length), seen.motion->length_sigma,
-                                   LengthSource::kRoad, false};
-  }
   return step;
 }
 
 bool is_measured(LengthSource source) {
   return source == LengthSource::kRoadImage || source == LengthSource::kStereo;
+}
+
+/// A step whose images told what cannot be: the last motion goes on.
+TwoView refused(TwoView seen, const RelativePose& last_motion) {
+  seen.status = StepStatus::kPredicted;
+  seen.pose = last_motion;
+  if (seen.pose.t.norm() > 0.0) seen.pose.t.normalize();
+  seen.covariance.setZero();
+  seen.inliers.clear();
+  seen.inlier_count = 0;
+  return seen;
+}
+
+/// A step of a car that stands among what moves.
+TwoView resting(TwoView seen) {
+  constexpr double kSame = 3.0;            // [σ]
+  constexpr double kPointSigma_px = 0.25;  // of a point that does not say
+  seen.status = StepStatus::kNoMotion;
+  seen.pose = {};
+  seen.covariance.setZero();
+  seen.inliers.assign(seen.pair.size(), false);
+  for (std::size_t i = 0; i < seen.pair.size(); ++i) {
+    const Correspondence& ac = seen.pair.correspondences[i];
+    const double sigma = std::max(ac.point_sigma, kPointSigma_px / seen.focal_px);
+    seen.inliers[i] = (ac.x2 - ac.x1).norm() <= kSame * sigma;
+  }
+  seen.inlier_count =
+      static_cast<std::size_t>(std::count(seen.inliers.begin(), seen.inliers.end(), true));
+  return seen;
 }
 
 /// A step that looked like a rest, but was none: the road moved, or inertia does not allow it.
@@ -135,9 +161,16 @@ FrameResult Odometry::advance(const CameraFrame& frame, TrackedPair pair, const 
 
 FrameResult Odometry::integrate(const FrameStamp& now, TwoView seen, const RoadPair& road) {
   const FrameStamp before = std::exchange(newest_, now);
+  if (!turn_gate_.allows(seen.pose.R, before.time_s, now.time_s)) {
+    seen = refused(std::move(seen), last_motion_);
+  }
+  StepInTime in_time = step_in_time(before, now, seen, last_motion_);
+  if (scale_.road_rests(road, seen, attitude_.now(), heading(), in_time)) {
+    seen = resting(std::move(seen));
+    in_time.status = seen.status;
+  }
   const MapLink link = map_.link(seen);
   if (link.began_anew) scale_.restart(before.time_s);
-  StepInTime in_time = step_in_time(before, now, seen, last_motion_);
   in_time.direct =
       scale_.measure_directly(road, seen, link.carried, attitude_.now(), heading(), in_time);
   const auto told = scale_.measure(seen, link.carried, attitude_.now());

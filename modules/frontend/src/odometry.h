@@ -4,6 +4,7 @@
 #include "map/keyframe_map.h"
 #include "scale/scale.h"
 #include "setup/setup_check.h"
+#include "two_view/turn_gate.h"
 #include "two_view/two_view.h"
 
 #include "oneac/frontend/frame_result.h"
@@ -50,6 +51,7 @@ class Odometry {
       const std::optional<MapLengths>& lengths, double focal_px);
 
   TwoViewEstimator two_view_;
+  TurnGate turn_gate_;
   Attitude attitude_;
   Scale scale_;
   SetupCheck setup_;

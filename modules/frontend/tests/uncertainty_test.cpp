@@ -61,7 +61,9 @@ TEST(StepCovariance, AddsTheLengthAlongTheWay) {
   const Eigen::Vector3d u = t.normalized();
   const Eigen::Matrix3d of_t = step.covariance.bottomRightCorner<3, 3>();
   EXPECT_NEAR(u.dot(of_t * u), std::pow(0.03 * t.norm(), 2), 1e-15);
-  EXPECT_NEAR(of_t.trace() - u.dot(of_t * u), 2.0 * std::pow(4e-3 * t.norm(), 2), 1e-15);
+  // Tracks share their errors: four times the variance of independent ones, and a floor.
+  const double direction = std::sqrt(4.0 * std::pow(4e-3, 2) + std::pow(1e-3, 2));
+  EXPECT_NEAR(of_t.trace() - u.dot(of_t * u), 2.0 * std::pow(direction * t.norm(), 2), 1e-15);
   ASSERT_TRUE(sigma_of_length(step).has_value());
   EXPECT_NEAR(*sigma_of_length(step), 0.03 * t.norm(), 1e-12);
 }
@@ -70,8 +72,8 @@ TEST(StepCovariance, ScalesWhatTurnAndDirectionShare) {
   const Eigen::Vector3d t(0.0, 0.0, -2.0);
   const Matrix6 seen = of_direction(t, 1e-3, 4e-3);
   const StepResult step = metric_step(t, 0.0);
-  EXPECT_TRUE(
-      (step.covariance.topRightCorner<3, 3>()).isApprox(2.0 * seen.topRightCorner<3, 3>(), 1e-12));
+  EXPECT_TRUE((step.covariance.topRightCorner<3, 3>())
+                  .isApprox(4.0 * 2.0 * seen.topRightCorner<3, 3>(), 1e-12));
 }
 
 TEST(StepCovariance, IsSymmetricAndPositiveSemidefiniteForEveryKindOfStep) {
@@ -153,7 +155,8 @@ TEST(PositionCovariances, AgreeWithChainsOfDisturbedSteps) {
   const Eigen::Matrix3d across = Eigen::Matrix3d::Identity() - u * u.transpose();
   seen.topLeftCorner<3, 3>().diagonal().setConstant(kTurn * kTurn);
   seen.bottomRightCorner<3, 3>() = kDirection * kDirection * across;
-  step.covariance = step_covariance(step, seen);
+  step.covariance = seen;
+  step.covariance.bottomRightCorner<3, 3>() *= motion.t.squaredNorm();
   std::vector<FrameResult> frames(1);
   for (std::size_t i = 0; i < kSteps; ++i) {
     FrameResult next;
@@ -169,9 +172,11 @@ TEST(PositionCovariances, AgreeWithChainsOfDisturbedSteps) {
   Eigen::Matrix3d scatter = Eigen::Matrix3d::Zero();
   for (int trial = 0; trial < kTrials; ++trial) {
     Eigen::Isometry3d T = Eigen::Isometry3d::Identity();
+    const double scale_of_turns = 0.01 * normal(draw);
+    const Eigen::AngleAxisd more(scale_of_turns * 0.03, Eigen::Vector3d::UnitY());
     for (std::size_t i = 0; i < kSteps; ++i) {
       const Eigen::Vector3d w = gauss(kTurn);
-      const Eigen::Matrix3d R = Eigen::AngleAxisd(w.norm(), w.normalized()) * motion.R;
+      const Eigen::Matrix3d R = Eigen::AngleAxisd(w.norm(), w.normalized()) * more * motion.R;
       const Eigen::Vector3d t = motion.t + motion.t.norm() * across * gauss(kDirection);
       T.linear() *= R.transpose();
       T.translation() -= T.linear() * t;

@@ -28,6 +28,11 @@ constexpr double kLeastUsable = 0.25;  // [-] of the strip
 constexpr int kLeastTextured = 3;      // blocks
 constexpr int kScoreStride = 2;        // lines along the road that judge rivals
 constexpr double kSamePlace = 1.5;     // [search steps] nearer peaks are one
+// [heights] Shorter steps are those of a road that rests, and of a vehicle ahead that goes as we do
+// or nearly so; only what lies before its wheels tells them apart: nearest blocks, and so many.
+constexpr double kVehicleAhead = 0.3;
+constexpr int kLeastNearest = 2;
+constexpr double kClearly = 0.5;  // [-] weight of a block that agrees
 
 /// The two views by their part: template and image.
 struct Problem {
@@ -110,6 +115,15 @@ void describe_fit(const RoadFit& fit, RoadAlignment& result) {
   result.gain = weights > 0.0 ? gain / weights : 1.0;
 }
 
+bool is_seen_near(const RoadFit& fit, const RoadAlignmentOptions& options) {
+  int agreeing = 0;
+  for (std::size_t lane = 0; lane < kLanes; ++lane) {
+    const bool like = fit.equations[lane].rho >= options.min_correlation;
+    agreeing += like && fit.weight[lane] > kClearly ? 1 : 0;
+  }
+  return agreeing >= kLeastNearest;
+}
+
 RoadStatus judge(const std::vector<Candidate>& candidates, const LengthRange& range,
                  const RoadAlignmentOptions& options, RoadAlignment& result) {
   const RoadFit& best = candidates.front().fit;
@@ -132,6 +146,7 @@ RoadStatus judge(const std::vector<Candidate>& candidates, const LengthRange& ra
   if (best.blocks < options.min_blocks || best.agreeing < options.min_agreeing) {
     return RoadStatus::kInconsistent;
   }
+  if (length < kVehicleAhead && !is_seen_near(best, options)) return RoadStatus::kInconsistent;
   return best.converged ? RoadStatus::kMeasured : RoadStatus::kNoCorrelation;
 }
 

@@ -35,6 +35,19 @@ StepLength mean_of(const StepLength& a, const StepLength& b) {
 
 }  // namespace
 
+bool Scale::road_rests(const RoadPair& road, const TwoView& seen, const Levelling& first,
+                       const Eigen::Vector3d& heading, const StepInTime& step) const {
+  const auto expected = inertia_.expect(step.begin_s, step.end_s);
+  if (seen.status != StepStatus::kOk || !expected) return false;
+  if (expected->length > kMoves * expected->sigma + kStillness) return false;
+  TwoView rest;
+  rest.status = StepStatus::kNoMotion;
+  rest.focal_px = seen.focal_px;
+  const auto told =
+      road_travel(road, rest, {first, heading, expected, step.seconds(), camera_height()});
+  return told && told->length <= kMoves * told->sigma;
+}
+
 StepLength Scale::by_itself(const StepInTime& step) const {
   StepLength told;
   if (!step.direct || !step.direct->in_metres || !(step.direct->length > 0.0)) return told;
@@ -156,10 +169,8 @@ StepLength Scale::at_rest(const StepInTime& step) const {
   const auto expected = inertia_.expect(step.begin_s, step.end_s);
   StepLength result;
   result.source = LengthSource::kStanding;
-  std::optional<MeasuredTravel> told = step.direct;
-  if (!told && step.evidence) told = step.evidence;
-  if (told) {
-    const bool moves = told->length > std::max(kStillness, kMoves * told->sigma) && step.direct;
+  if (const auto& told = step.direct) {
+    const bool moves = told->length > std::max(kStillness, kMoves * told->sigma);
     if (moves && told->in_metres) {
       const StepLength direct = by_itself(step);
       if (!expected || expected->allows(direct.length, direct.sigma_m)) return direct;

@@ -20,10 +20,9 @@ namespace oneac {
 /// A step whose length is asked.
 struct StepInTime {
   StepStatus status = StepStatus::kPredicted;
-  double begin_s = 0.0, end_s = 0.0;       ///< [s] Unix times of the two frames
-  RelativePose expected;                   ///< motion of the step before, length as used
-  std::optional<MeasuredTravel> direct;    ///< what the road's grey values or stereo say of it
-  std::optional<MeasuredTravel> evidence;  ///< of a rest, what its near points say [camera heights]
+  double begin_s = 0.0, end_s = 0.0;     ///< [s] Unix times of the two frames
+  RelativePose expected;                 ///< motion of the step before, length as used
+  std::optional<MeasuredTravel> direct;  ///< what the road's grey values or stereo say of it
 
   [[nodiscard]] double seconds() const { return end_s - begin_s; }
 };
@@ -58,6 +57,9 @@ class Scale {
   [[nodiscard]] std::optional<MeasuredTravel> measure_directly(
       const RoadPair& road, const TwoView& seen, const std::optional<LengthMeasurement>& carried,
       const Levelling& first, const Eigen::Vector3d& heading, const StepInTime& step);
+  /// The images show a motion, but the car may stand, and the road rests: it is traffic that moves.
+  [[nodiscard]] bool road_rests(const RoadPair& road, const TwoView& seen, const Levelling& first,
+                                const Eigen::Vector3d& heading, const StepInTime& step) const;
   /// What inertia lets expect; empty while no speed is known.
   [[nodiscard]] std::optional<ExpectedLength> expected(double begin_s, double end_s) const {
     return inertia_.expect(begin_s, end_s);

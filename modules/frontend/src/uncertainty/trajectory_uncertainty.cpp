@@ -1,5 +1,7 @@
 #include "oneac/frontend/trajectory_uncertainty.h"
 
+#include <Eigen/Geometry>
+
 #include <algorithm>
 #include <cmath>
 
@@ -11,6 +13,9 @@ using Matrix6 = Eigen::Matrix<double, 6, 6>;
 // [m] way over which the map's own error of scale lasts: near landmarks stay in view for so long.
 constexpr double kScaleMemory = 20.0;
 constexpr double kUnknownLength = 1.0;  // relative 1σ of a length that is not metric
+// [-] 1σ of all turns together, by a focal length that is wrong by as much: KITTI's own camera of
+// drive 03 is known to half a percent, those of other days to two.
+constexpr double kTurnScale = 0.01;
 
 Eigen::Matrix3d cross(const Eigen::Vector3d& a) {
   Eigen::Matrix3d m;
@@ -33,7 +38,7 @@ Matrix6 beside_length(const StepResult& step, double length) {
   return covariance;
 }
 
-/// Errors of (θ, p) so far: independent ones and two of length.
+/// Errors of (θ, p) so far: independent ones, two of length, and one of all turns together.
 class Chain {
  public:
   explicit Chain(double common_sigma) : common_sigma_(common_sigma) {}
@@ -41,10 +46,14 @@ class Chain {
   void add(const StepResult& step, const Eigen::Isometry3d& before, const Eigen::Isometry3d& now) {
     const Eigen::Vector3d d = now.translation() - before.translation();
     add_turns(step, d, now.linear());
+    const Eigen::AngleAxisd turn(now.linear() * before.linear().transpose());
+    turned_ += kTurnScale * turn.angle() * turn.axis();
+    by_turns_ += turned_.cross(d);
     if (step.pose.t.norm() > 0.0) add_length(step, d);
   }
   [[nodiscard]] Eigen::Matrix3d position() const {
-    return turns_.bottomRightCorner<3, 3>() + common_ * common_.transpose() + lengths_;
+    return turns_.bottomRightCorner<3, 3>() + common_ * common_.transpose() + lengths_ +
+           by_turns_ * by_turns_.transpose();
   }
 
  private:
@@ -71,6 +80,8 @@ class Chain {
   }
 
   double common_sigma_;
+  Eigen::Vector3d turned_ = Eigen::Vector3d::Zero();       ///< [rad] 1σ by the scale of turns ...
+  Eigen::Vector3d by_turns_ = Eigen::Vector3d::Zero();     ///< ... and of p by it
   Matrix6 turns_ = Matrix6::Zero();                        ///< of (θ, p)
   Eigen::Vector3d common_ = Eigen::Vector3d::Zero();       ///< 1σ of the shared error
   Eigen::Matrix3d lengths_ = Eigen::Matrix3d::Zero();      ///< of p by the rest
