@@ -1,6 +1,6 @@
 #include "commands.h"
-#include "interrupt.h"
-#include "progress_bar.h"
+#include "terminal/interrupt.h"
+#include "terminal/progress_bar.h"
 
 #include "oneac/base/atomic_file.h"
 #include "oneac/base/error.h"

@@ -1,4 +1,4 @@
-#include "motion_prediction.h"
+#include "klt/motion_prediction.h"
 
 #include "oneac/geometry/leveling.h"
 

@@ -1,6 +1,6 @@
 #include "oneac/features/road_alignment.h"
 
-#include "../klt_track.h"
+#include "klt/klt_track.h"
 #include "road_polish.h"
 #include "road_prior.h"
 #include "road_search.h"
