@@ -56,8 +56,8 @@ void describe(Visitor&& visit, RoadAlignmentOptions& o) {
   visit("min_direction_sigma", o.min_direction_sigma, "rad", "least 1-sigma of a direction given");
 }
 
-/// An image made ready for aligning roads; keep that of the frame before. A cheap value (shared,
-/// immutable).
+/// An image made ready for aligning roads; keep that of the frame before. A cheap
+/// value (shared, immutable).
 class RoadImage {
  public:
   RoadImage() = default;

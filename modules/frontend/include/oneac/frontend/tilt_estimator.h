@@ -25,8 +25,8 @@ class TiltEstimator {
 
   /// Replaces what is given, e.g. by a longer mean of the accelerometer.
   void set_given(const Tilt& given);
-  /// Learns from a motion of the (tilted) camera. Steps that are not mainly forward say nothing
-  /// about pitch.
+  /// Learns from a motion of the (tilted) camera. Steps that are not mainly forward say
+  /// nothing about pitch.
   void add_step(const RelativePose& T_2_1);
 
   [[nodiscard]] const Tilt& tilt() const { return belief_.tilt; }

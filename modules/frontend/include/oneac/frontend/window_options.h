@@ -39,8 +39,8 @@ void describe(Visitor&& visit, WindowOptions& o) {
 
 /// Where metres come from. validate() throws std::invalid_argument.
 struct ScaleOptions {
-  /// "height": road and camera height; "stereo": the right images' depths; "gps": speeds given to
-  /// FrontEnd; "none"
+  /// "height": road and camera height; "stereo": the right images' depths; "gps": speeds given
+  /// to FrontEnd; "none"
   std::string source = "height";
   double map_drift = 0.003;        ///< [-] 1σ of the map's scale gained from keyframe to keyframe,
                                    ///< beside that of the lengths its landmarks carry

@@ -62,8 +62,8 @@ class RawlogSource {
   /// Reads on to the next selected image that exists. Not thread-safe.
   [[nodiscard]] std::optional<FrameTicket> next();
   /// Decodes, converts to grey, undistorts when distorted (map computed once). Thread-safe.
-  /// @throws InputError naming the image when it cannot be decoded or has another size than the
-  /// calibration
+  /// @throws InputError naming the image when it cannot be decoded or has another size
+  ///         than the calibration
   [[nodiscard]] CameraFrame load(const FrameTicket& ticket) const;
   /// Reads on (without images) up to two seconds past the last image, so that the reference covers
   /// the drive; then `report` is complete. Call when done.

@@ -92,11 +92,10 @@ struct WindowRefineResult {
 /// Cauchy loss, and a planar-motion prior between consecutive views as soft as the suspension.
 ///
 /// Gauge: views marked `fixed` keep their poses; two of them hold position, orientation and scale.
-/// With one, scale is left to the damping of the optimiser: it stays near the start.
-/// An observation is affine-consistent when its A agrees within its noise with the affinity that
-/// poses and patch induce; patches get their gradient by least squares over all their affinities.
-/// Landmarks are eliminated (Schur); with affine terms Ceres does it. One thread, no clock:
-/// deterministic.
+/// With one, scale is left to the damping of the optimiser: it stays near the start. An observation
+/// is affine-consistent when its A agrees within its noise with the affinity that poses and patch
+/// induce; patches get their gradient by least squares over all their affinities. Landmarks are
+/// eliminated (Schur); with affine terms Ceres does it. One thread, no clock: deterministic.
 /// @throws std::invalid_argument on invalid options or an index out of range
 [[nodiscard]] WindowRefineResult refine_window(SlidingWindow& window,
                                                const WindowRefineOptions& options);

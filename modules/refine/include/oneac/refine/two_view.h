@@ -84,8 +84,8 @@ struct RefineResult {
 /// @param start    X2 = R X1 + t; the length of t is kept, whether metric or one
 /// @param focal_px turns point_noise_px into normalised units
 /// @throws std::invalid_argument on invalid options, focal_px ≤ 0 or flags of another number
-/// @cost   1 to 2 ms for 600 inliers, twice that with affinities; one thread, deterministic, prints
-/// nothing
+/// @cost   1 to 2 ms for 600 inliers, twice that with affinities; one thread,
+///         deterministic, prints nothing
 [[nodiscard]] RefineResult refine_two_view(const std::vector<AffineCorrespondence>& acs,
                                            const std::vector<bool>& inliers,
                                            const RelativePose& start, double focal_px,

@@ -49,8 +49,8 @@ struct Plot {
 /// The same as an SVG document of 720 px of width, dark on white. @throws as plot_svg
 [[nodiscard]] std::string plot_document(const Plot& plot);
 
-/// Distance of ticks that gives about `count` of them over `range` > 0: 1, 2 or 5 times a power of
-/// ten.
+/// Distance of ticks that gives about `count` of them over `range` > 0: 1, 2 or 5
+/// times a power of ten.
 [[nodiscard]] double tick_step(double range, int count);
 
 }  // namespace oneac

@@ -18,8 +18,8 @@ enum class MotionModel {
 };
 [[nodiscard]] const char* to_string(MotionModel model);
 
-/// What is known of the motion before the points are looked at: inertia, sensors. Defaults:
-/// nothing.
+/// What is known of the motion before the points are looked at: inertia,
+/// sensors. Defaults: nothing.
 struct MotionPrior {
   static constexpr double kUnknown = std::numeric_limits<double>::infinity();
 
@@ -31,8 +31,8 @@ struct MotionPrior {
   void validate() const;
 };
 
-/// Costs in nats, so that sums of them are log-likelihoods. validate() throws
-/// std::invalid_argument.
+/// Costs in nats, so that sums of them are log-likelihoods.
+/// validate() throws std::invalid_argument.
 struct MotionEvidenceOptions {
   double sigma = 3.5e-4;       ///< [-] 1σ of a coordinate where a point brings none of its own
   double affine_sigma = 0.08;  ///< [-] 1σ of det A of a tracked patch

@@ -39,8 +39,8 @@ struct AffinityFactors {
 };
 [[nodiscard]] AffinityFactors affinity_factors(const Eigen::Matrix2d& A);
 
-/// A with its two angles and its two singular values disturbed, each by an error of its own (but
-/// see NoiseShape::common).
+/// A with its two angles and its two singular values disturbed, each by an error of its own
+/// (but see NoiseShape::common).
 [[nodiscard]] Eigen::Matrix2d noisy_affinity(const Eigen::Matrix2d& A, const NoiseLevel& level,
                                              NoiseShape shape, TrialRandom& random);
 

@@ -20,8 +20,8 @@ struct StudyOptions {
   DataUse data_use = DataUse::all;               ///< the same four correspondences for every method
   std::vector<std::string> figures;  ///< ids, "i", "s" or names; empty or "all": all of them
 
-  /// @throws std::invalid_argument naming field, value and bound; an unknown figure with the
-  ///         nearest name
+  /// @throws std::invalid_argument naming field, value and bound; an unknown figure
+  ///         with the nearest name
   void validate() const;
 };
 
