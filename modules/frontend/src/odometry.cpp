@@ -48,18 +48,29 @@ StepInTime step_in_time(const FrameStamp& before, const FrameStamp& now, const T
   step.end_s = now.time_s;
   step.expected = last_motion;
   if (seen.motion && std::isfinite(seen.motion->length_sigma)) {
-    step.evidence = RoadTravel{std::abs(seen.motion->length), seen.motion->length_sigma};
+    step.evidence = MeasuredTravel{std::abs(seen.motion->length), seen.motion->length_sigma,
+                                   LengthSource::kRoad, false};
   }
   return step;
+}
+
+bool is_measured(LengthSource source) {
+  return source == LengthSource::kRoadImage || source == LengthSource::kStereo;
 }
 
 /// A step that looked like a rest, but was none: the road moved, or inertia does not allow it.
 TwoView as_it_moved(TwoView seen, const StepLength& length, const Eigen::Vector3d& heading) {
   if (seen.status != StepStatus::kNoMotion || !(length.length > 0.0)) return seen;
-  seen.status =
-      length.source == LengthSource::kRoadImage ? StepStatus::kOk : StepStatus::kPredicted;
+  seen.status = is_measured(length.source) ? StepStatus::kOk : StepStatus::kPredicted;
   seen.pose.t = heading;
   return seen;
+}
+
+Eigen::Isometry3d as_isometry(const RelativePose& pose) {
+  Eigen::Isometry3d T = Eigen::Isometry3d::Identity();
+  T.linear() = Eigen::Quaterniond(pose.R).normalized().toRotationMatrix();
+  T.translation() = pose.t;
+  return T;
 }
 
 /// The motion with its length as used, whether metres or not.
@@ -85,6 +96,7 @@ FrameResult frame_result(const FrameStamp& now, FrameInMap in_map, const Attitud
 FrameResult with_step(FrameResult result, StepResult step,
                       const std::optional<ScaleCorrection>& correction) {
   if (correction && correction->ground_acs > 0) step.ground_acs = correction->ground_acs;
+  if (correction) result.rescaled = correction->factor;
   result.step = step;
   return result;
 }
@@ -126,7 +138,8 @@ FrameResult Odometry::integrate(const FrameStamp& now, TwoView seen, const RoadP
   const MapLink link = map_.link(seen);
   if (link.began_anew) scale_.restart(before.time_s);
   StepInTime in_time = step_in_time(before, now, seen, last_motion_);
-  in_time.road = scale_.along_road(road, seen, link.carried, attitude_.now(), heading(), in_time);
+  in_time.direct =
+      scale_.measure_directly(road, seen, link.carried, attitude_.now(), heading(), in_time);
   const auto told = scale_.measure(seen, link.carried, attitude_.now());
   setup_.follow(seen, attitude_.now().R_level_cam);
   const StepLength length = setup_.checked(scale_.length_of(in_time, told));
@@ -140,7 +153,10 @@ FrameResult Odometry::integrate(const FrameStamp& now, TwoView seen, const RoadP
                                  scale_.lengths_hold());
   const auto correction = scale_correction(lengths, seen.focal_px);
   last_motion_ = {motion.R, motion.t * (correction ? correction->factor : 1.0)};
-  return with_step(frame_result(now, map_.settle(correction), attitude_), step, correction);
+  T_odom_cam_ = T_odom_cam_ * as_isometry(motion.inverse());
+  FrameResult result = frame_result(now, map_.settle(correction), attitude_);
+  result.T_odom_cam = T_odom_cam_;
+  return with_step(std::move(result), step, correction);
 }
 
 std::optional<ScaleCorrection> Odometry::scale_correction(const std::optional<MapLengths>& lengths,

@@ -54,7 +54,8 @@ class Odometry {
   Scale scale_;
   SetupCheck setup_;
   KeyframeMap map_;
-  FrameStamp newest_;                                  ///< frame
+  FrameStamp newest_;  ///< frame
+  Eigen::Isometry3d T_odom_cam_ = Eigen::Isometry3d::Identity();
   RelativePose last_motion_;                           ///< T_2_1 of the last step, length as used
   Eigen::Vector3d heading_ = Eigen::Vector3d::Zero();  ///< t̂ of the last step that had one
 };

@@ -120,9 +120,9 @@ TEST(Scale, TrustsAMapLessThatWasCarriedBadly) {
   EXPECT_LT(share_after(0.2), 0.5 * share_after(0.01));
 }
 
-StepInTime rest(std::optional<RoadTravel> road) {
+StepInTime rest(std::optional<MeasuredTravel> road) {
   StepInTime resting = step(StepStatus::kNoMotion, 10.1, 1.0);
-  resting.road = road;
+  resting.direct = road;
   return resting;
 }
 
@@ -136,10 +136,11 @@ Scale driving() {
 
 TEST(Scale, ACameraWhoseRoadRestsDrivesZeroMetres) {
   Scale scale = started(by("height"));
-  const StepLength length = scale.length_of(rest(RoadTravel{0.001, 0.004}), {});
+  const StepLength length =
+      scale.length_of(rest(MeasuredTravel{0.001, 0.004, LengthSource::kRoadImage, true}), {});
   EXPECT_TRUE(length.metric);
   EXPECT_EQ(length.length, 0.0);
-  EXPECT_EQ(length.sigma_m, 0.004) << "zero is a measurement";
+  EXPECT_NEAR(length.sigma_m, std::hypot(0.004, 0.001), 1e-12) << "it may have crept";
   EXPECT_EQ(length.source, LengthSource::kStanding);
 }
 
@@ -150,7 +151,8 @@ TEST(Scale, ARestThatNobodySawOnTheRoadIsNotMetric) {
 
 TEST(Scale, ARestWhoseRoadMovesIsNone) {
   Scale scale = driving();
-  const StepLength length = scale.length_of(rest(RoadTravel{0.95, 0.03}), {});
+  const StepLength length =
+      scale.length_of(rest(MeasuredTravel{0.95, 0.03, LengthSource::kRoadImage, true}), {});
   EXPECT_EQ(length.length, 0.95);
   EXPECT_EQ(length.source, LengthSource::kRoadImage);
   EXPECT_TRUE(length.metric);
@@ -188,11 +190,80 @@ TEST(Scale, RoadAndMapThatDisagreeRefuteTheMap) {
   static_cast<void>(scale.correct({road(1.0, 1.0), {}}, {}, kFocal));
   for (int i = 1; i < 6; ++i) {
     StepInTime next = step(StepStatus::kOk, 10.0 + 0.1 * i, 1.0);
-    next.road = RoadTravel{1.0, 0.03};
+    next.direct = MeasuredTravel{1.0, 0.03, LengthSource::kRoadImage, true};
     const StepLength length = scale.length_of(next, {carried(0.1)});
     EXPECT_EQ(length.length, 1.0) << "the map lost its scale";
     EXPECT_EQ(scale.map_is_refuted(), i >= 5) << i << ' ' << length.conflict;
   }
+}
+
+/// A drive in metres, map and road.
+Scale mapped() {
+  Scale scale = driving();
+  static_cast<void>(scale.correct({road(1.0, 1.0), {}}, {}, kFocal));
+  return scale;
+}
+
+TEST(Scale, FarLandmarksThatATurnMayHaveShiftedYieldToTheRoad) {
+  StepInTime next = step(StepStatus::kOk, 10.1, 1.0);
+  next.direct = MeasuredTravel{0.95, 0.02, LengthSource::kRoadImage, true};
+  LengthMeasurement far = carried(1.08);
+  far.turn_sigma = 0.08;
+  Scale scale = mapped();
+  const StepLength together = scale.length_of(next, {far});
+  EXPECT_TRUE(together.metric);
+  EXPECT_EQ(together.source, LengthSource::kRoadImage);
+  EXPECT_LT(together.length, 0.97);
+  Scale sure = mapped();
+  EXPECT_NEAR(sure.length_of(next, {carried(1.0)}).length, 1.0, 1e-9) << "near ones do not";
+}
+
+TEST(Scale, InertiaHelpsALengthThatIsTooUnsureToBeMetric) {
+  LengthMeasurement far = carried(1.05);
+  far.turn_sigma = 0.1;
+  Scale scale = mapped();
+  const StepLength helped = scale.length_of(step(StepStatus::kOk, 10.1, 1.0), {far});
+  EXPECT_TRUE(helped.metric);
+  EXPECT_LT(helped.length, 1.03);
+  ASSERT_TRUE(helped.without_inertia.has_value());
+  EXPECT_NEAR(helped.without_inertia->length, 1.05, 1e-9) << "the speed learns this alone";
+}
+
+TEST(Scale, CreepingDoesNotLoseTheScale) {
+  Scale scale = mapped();
+  for (int i = 1; i <= 60; ++i) {
+    LengthMeasurement creep = carried(0.02);
+    creep.sigma = 0.2;
+    static_cast<void>(scale.length_of(step(StepStatus::kOk, 10.0 + 0.1 * i, 0.02), {creep}));
+  }
+  static_cast<void>(scale.correct({road(1.2, 0.0), {}}, {}, kFocal));
+  EXPECT_TRUE(scale.is_metric());
+}
+
+TEST(ShutterClock, TakesARegularShutterForGrantedBesideStampsThatJitter) {
+  ShutterClock clock;
+  EXPECT_EQ(clock.between(0.08).half_range, 0.0) << "nothing is known yet";
+  for (int i = 0; i < 10; ++i) clock.tell(i % 2 == 0 ? 0.051 : 0.049);
+  const StepTime late = clock.between(0.078);  // 1.5 intervals: one or two
+  EXPECT_NEAR(late.least(), 0.05, 2e-3);
+  EXPECT_NEAR(late.most(), 0.1, 3e-3);
+  const StepTime early = clock.between(0.022);
+  EXPECT_NEAR(early.least(), 0.022, 1e-9);
+  EXPECT_NEAR(early.most(), 0.05, 2e-3);
+  EXPECT_LT(clock.between(0.1).half_range, 2e-3) << "one image was left out";
+}
+
+TEST(Inertia, AllowsTheStepOfARegularShutterWhateverTheStampSays) {
+  Inertia inertia({}, 2.0);
+  for (int i = 0; i < 10; ++i) {
+    inertia.tick(0.05 * i, 0.05 * (i + 1));
+    inertia.tell(0.05 * i, 0.05 * (i + 1), 0.25, 0.003);
+  }
+  const auto expected = inertia.expect(0.5, 0.578);
+  ASSERT_TRUE(expected.has_value());
+  EXPECT_TRUE(expected->allows(0.25, 0.003));
+  EXPECT_TRUE(expected->allows(0.39, 0.003));
+  EXPECT_FALSE(expected->allows(0.1, 0.003));
 }
 
 TEST(Inertia, ExpectsNothingBeforeASpeedWasTold) {

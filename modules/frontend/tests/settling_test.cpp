@@ -64,6 +64,27 @@ TEST_F(SettlingOnALine, StretchesTheFramesBetweenWithTheirStep) {
   EXPECT_NEAR(all.frames[1].T_first_cam.translation().z(), 1.2 + 0.72, 1e-12);
 }
 
+TEST(Settling, BendsTheFramesBetweenWithTheirStep) {
+  LocalMap map{WindowOptions{}, 700.0};
+  Settling settling;
+  map.start(0, ahead(0.0));
+  settling.add_keyframe(0, {});
+  for (int i = 1; i <= 9; ++i) settling.add_frame(static_cast<std::size_t>(i), 0, ahead(0.1 * i));
+  RelativePose moved = ahead(1.0);
+  moved.t.x() = 0.1;  // an adjustment moved the keyframe to the left
+  map.add_keyframe(10, moved);
+  Settling::Note note;
+  note.T_from_before = ahead(1.0);
+  settling.add_keyframe(1, note);
+  Settled all;
+  settling.settle_all(map, all);
+  ASSERT_EQ(all.frames.size(), 9U);
+  double expected = 0.0;
+  for (const SettledFrame& frame : all.frames) {
+    EXPECT_NEAR(frame.T_first_cam.translation().x(), expected -= 0.01, 1e-3);
+  }
+}
+
 TEST_F(SettlingOnALine, TellsHowFarItLiesFromTheMap) {
   correct(1.44);
   const Settled all = settled();

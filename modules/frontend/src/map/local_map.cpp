@@ -65,7 +65,9 @@ std::optional<LengthMeasurement> LocalMap::carry(const RelativePose& unit_step,
   if (votes.size() < static_cast<std::size_t>(options_.min_carry)) return std::nullopt;
   const RobustMean mean = robust_mean(votes);
   if (mean.support < static_cast<std::size_t>(options_.min_carry)) return std::nullopt;
-  return LengthMeasurement{mean.value, mean.relative_sigma, LengthSource::kMap, mean.support};
+  LengthMeasurement carried{mean.value, mean.relative_sigma, LengthSource::kMap, mean.support};
+  carried.turn_sigma = kTurnSigma * mean.lever.norm();
+  return carried;
 }
 
 bool LocalMap::needs_keyframe(const RelativePose& T_cam_map, double seconds) const {

@@ -20,16 +20,29 @@ constexpr double kStillness = 0.02;
 // [m or heights] a rest that is known no better than this says nothing in metres.
 constexpr double kSureRest = 0.05;
 
+/// Weighted mean, under the name of the surer; errors that the two share (the road's plane, the
+/// height) do not average out, so it is no surer than the surer one.
+StepLength mean_of(const StepLength& a, const StepLength& b) {
+  StepLength result = a.sigma_m <= b.sigma_m ? a : b;
+  const double wa = 1.0 / (a.sigma_m * a.sigma_m), wb = 1.0 / (b.sigma_m * b.sigma_m);
+  if (!std::isfinite(wa) || !std::isfinite(wb) || !(wa + wb > 0.0)) return result;
+  result.length = (wa * a.length + wb * b.length) / (wa + wb);
+  if (result.length > 0.0) result.sigma = result.sigma_m / result.length;
+  result.landmarks = std::max(a.landmarks, b.landmarks);
+  result.ground_acs = std::max(a.ground_acs, b.ground_acs);
+  return result;
+}
+
 }  // namespace
 
-StepLength Scale::by_road_image(const StepInTime& step) const {
+StepLength Scale::by_itself(const StepInTime& step) const {
   StepLength told;
-  if (!step.road || !(camera_height() > 0.0) || !(step.road->length > 0.0)) return told;
-  told.length = step.road->length;
-  told.sigma_m = step.road->sigma;
-  told.sigma = step.road->sigma / step.road->length;
+  if (!step.direct || !step.direct->in_metres || !(step.direct->length > 0.0)) return told;
+  told.length = step.direct->length;
+  told.sigma_m = step.direct->sigma;
+  told.sigma = step.direct->sigma / step.direct->length;
   told.metric = true;
-  told.source = LengthSource::kRoadImage;
+  told.source = step.direct->source;
   return told;
 }
 
@@ -38,7 +51,7 @@ StepLength Scale::decided(const StepInTime& step,
   if (step.status == StepStatus::kNoMotion) return at_rest(step);
   std::vector<StepLength> told;
   if (!measured.empty()) told.push_back(stated(measured.front()));
-  if (const StepLength road = by_road_image(step); road.metric) told.push_back(road);
+  if (const StepLength direct = by_itself(step); direct.metric) told.push_back(direct);
   const StepLength result = chosen(told, step);
   if (result.metric) return result;
   // The unit of a map without scale goes on while nobody knows a speed in metres.
@@ -56,36 +69,69 @@ StepLength Scale::decided(const StepInTime& step,
   return goes_on;
 }
 
-/// Of those who tell metres the first that inertia allows; not metric when nobody is believed.
+/// Of those who tell metres what inertia allows, together; not metric when nobody is believed.
 StepLength Scale::chosen(const std::vector<StepLength>& told, const StepInTime& step) const {
   const auto expected = inertia_.expect(step.begin_s, step.end_s);
   std::vector<StepLength> believed;
-  StepLength result;
+  StepLength refused;
   for (const StepLength& length : told) {
+    if (!length.metric) continue;
     const bool slow = !(step.seconds() > 0.0) || !(length.length > kFastestCar * step.seconds());
-    const bool possible = slow && (!expected || expected->allows(length.length, length.sigma_m));
-    if (length.metric && possible) believed.push_back(length);
-    if (!length.metric || possible) continue;
-    result.refused = true;
-    if (length.source == LengthSource::kMap) result.conflict = true;
+    if (slow && (!expected || expected->allows(length.length, length.sigma_m))) {
+      believed.push_back(length);
+    } else {
+      refused.refused = true;
+      refused.conflict = refused.conflict || length.source == LengthSource::kMap;
+    }
   }
-  const bool conflict = result.conflict, refused = result.refused;
-  if (!believed.empty()) result = believed.front();
-  result.conflict = conflict;
-  result.refused = refused;
-  if (believed.size() < 2) return result;
-  const double off = std::abs(believed[0].length - believed[1].length);
-  if (off <= kContradiction * std::hypot(believed[0].sigma_m, believed[1].sigma_m)) return result;
-  result.conflict = true;
-  if (!expected) {
+  StepLength result = refused;
+  if (believed.size() == 1) result = believed.front();
+  if (believed.size() > 1) result = together(believed[0], believed[1], expected);
+  result.refused = refused.refused;
+  result.conflict = result.conflict || refused.conflict;
+  if (!result.metric) return result;
+  if (expected) result = steadied(result, *expected);
+  result.metric = result.sigma <= allowed_sigma(result.length);
+  return result;
+}
+
+/// Two of one step: a sure first one, else their mean, or when they contradict each other the less
+/// surprising one.
+StepLength Scale::together(const StepLength& a, const StepLength& b,
+                           const std::optional<ExpectedLength>& expected) const {
+  const double off = std::abs(a.length - b.length);
+  if (off <= kContradiction * std::hypot(a.sigma_m, b.sigma_m)) {
+    return a.sigma <= kSure * allowed_sigma(a.length) ? a : mean_of(a, b);
+  }
+  StepLength result = a;
+  if (expected) {
+    const auto surprise = [&](const StepLength& length) {
+      return std::abs(length.length - expected->length) /
+             std::hypot(expected->sigma, length.sigma_m);
+    };
+    if (surprise(b) < surprise(a)) result = b;
+  } else {
     result.metric = false;  // one of the two is wrong, and nothing tells which
-    return result;
   }
-  const auto surprise = [&](const StepLength& length) {
-    return std::abs(length.length - expected->length) / std::hypot(expected->sigma, length.sigma_m);
-  };
-  if (surprise(believed[1]) < surprise(believed[0])) result = believed[1];
   result.conflict = true;
+  return result;
+}
+
+/// An unsure length, helped by inertia: far landmarks know little of a short step.
+StepLength Scale::steadied(const StepLength& told, const ExpectedLength& expected) const {
+  if (told.sigma <= kSure * allowed_sigma(told.length)) return told;
+  StepLength inertia;
+  inertia.length = expected.length;
+  inertia.sigma_m = expected.sigma;
+  if (std::abs(told.length - inertia.length) >
+      kContradiction * std::hypot(told.sigma_m, inertia.sigma_m)) {
+    return told;
+  }
+  StepLength result = told;
+  result.without_inertia = MeasuredTravel{told.length, told.sigma_m, told.source, true};
+  result.length = mean_of(told, inertia).length;
+  result.sigma_m = told.sigma_m * inertia.sigma_m / std::hypot(told.sigma_m, inertia.sigma_m);
+  result.sigma = result.sigma_m / std::max(result.length, kStillness);
   return result;
 }
 
@@ -110,13 +156,13 @@ StepLength Scale::at_rest(const StepInTime& step) const {
   const auto expected = inertia_.expect(step.begin_s, step.end_s);
   StepLength result;
   result.source = LengthSource::kStanding;
-  std::optional<RoadTravel> told = step.road;
+  std::optional<MeasuredTravel> told = step.direct;
   if (!told && step.evidence) told = step.evidence;
   if (told) {
-    const bool moves = told->length > std::max(kStillness, kMoves * told->sigma) && step.road;
-    if (moves && camera_height() > 0.0) {
-      const StepLength road = by_road_image(step);
-      if (!expected || expected->allows(road.length, road.sigma_m)) return road;
+    const bool moves = told->length > std::max(kStillness, kMoves * told->sigma) && step.direct;
+    if (moves && told->in_metres) {
+      const StepLength direct = by_itself(step);
+      if (!expected || expected->allows(direct.length, direct.sigma_m)) return direct;
       return held(step);
     }
     result.metric = !moves && told->sigma <= kSureRest;
@@ -141,8 +187,9 @@ StepLength Scale::stated(const LengthMeasurement& measured) const {
   result.length = measured.length;
   result.source = measured.source;
   if (measured.source == LengthSource::kMap) {
-    result.sigma = std::hypot(measured.sigma, filter_.uncertainty());
-    result.metric = filter_.is_metric() && result.sigma <= allowed_sigma(result.length);
+    const double turn = measured.turn_sigma / std::max(measured.length, 1e-9);
+    result.sigma = std::hypot(std::hypot(measured.sigma, turn), filter_.uncertainty());
+    result.metric = filter_.is_metric();
     result.landmarks = measured.support;
   } else {
     result.sigma = measured.sigma;

@@ -49,7 +49,7 @@ std::optional<LengthVote> length_vote(const RelativePose& unit_step, const Eigen
   if (!(slope > 0.0) || !(p.z() > 0.0)) return std::nullopt;
   const double length = -a.dot(b) / (slope * slope);
   const double from_points = std::sqrt(2.0) * sigma * p.z() / slope;
-  return LengthVote{length, from_points, depth_sigma};
+  return LengthVote{length, from_points, depth_sigma, -p.z() / (slope * slope) * b};
 }
 
 double LengthVote::sigma(double true_length) const {
@@ -65,6 +65,8 @@ RobustMean robust_mean(std::vector<LengthVote> votes) {
   for (int iteration = 0; iteration < kIterations; ++iteration) {
     double weights = 0.0, sum = 0.0, chi2 = 0.0;
     mean.support = 0;
+    mean.lever.setZero();
+    mean.depth_sigma = 0.0;
     for (const LengthVote& vote : votes) {
       const double sigma = vote.sigma(mean.value);
       const double z = (vote.length - mean.value) / sigma;
@@ -72,10 +74,14 @@ RobustMean robust_mean(std::vector<LengthVote> votes) {
       const double weight = robust / (sigma * sigma);
       weights += weight;
       sum += weight * vote.length;
+      mean.lever += weight * vote.lever;
+      mean.depth_sigma += weight * vote.depth_sigma;
       chi2 += robust * z * z;
       if (z * z < kCut) ++mean.support;
     }
     mean.value = sum / weights;
+    mean.lever /= weights;
+    mean.depth_sigma /= weights;
     variance =
         std::max(chi2 / std::max<double>(1.0, static_cast<double>(mean.support)), 0.1) / weights;
   }

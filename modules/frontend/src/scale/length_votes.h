@@ -15,6 +15,8 @@ struct LengthVote {
   double length = 0.0;
   double point_sigma = 0.0;  ///< 1σ of it by the noise of the points
   double depth_sigma = 0.0;  ///< relative 1σ of the depth, and so of the true length
+  /// [length/rad] what a turn that is wrong, and shifts all points alike, adds to it.
+  Eigen::Vector2d lever = Eigen::Vector2d::Zero();
 
   /// 1σ when the true length is known. Not of the vote's own length: what votes for zero, traffic
   /// ahead, would otherwise look most certain.
@@ -33,7 +35,13 @@ struct RobustMean {
   double value = 0.0;
   double relative_sigma = 0.0;  ///< from the scatter of the votes
   std::size_t support = 0;
+  Eigen::Vector2d lever = Eigen::Vector2d::Zero();  ///< mean of those of the votes
+  double depth_sigma = 0.0;                         ///< relative, mean of those of the votes
 };
+
+/// [rad] 1σ of the turn between two frames beside what two views say of it: calibration and
+/// rolling shutter leave it, and far points turn it into lengths.
+constexpr double kTurnSigma = 1.5e-4;
 
 /// Weighted mean about the median (Geman–McClure weights at 2σ). @pre not empty
 [[nodiscard]] RobustMean robust_mean(std::vector<LengthVote> votes);

@@ -5,6 +5,7 @@
 #include "oneac/geometry/relative_pose.h"
 
 #include <cstddef>
+#include <optional>
 #include <vector>
 
 namespace oneac {
@@ -27,12 +28,16 @@ struct LengthMeasurement {
   double sigma = 0.0;   ///< relative 1σ
   LengthSource source = LengthSource::kNone;
   std::size_t support = 0;  ///< landmarks, or correspondences on the road
+  double turn_sigma = 0.0;  ///< [m or map] 1σ beside it, by the turn: of this step alone
 };
 
-/// What the grey values of the road say of a step; zero is a measurement, too.
-struct RoadTravel {
+/// How far the camera went in a step, measured in that step alone: by the grey values of the road
+/// or by depths of stereo. Zero is a measurement, too.
+struct MeasuredTravel {
   double length = 0.0;  ///< [m], or [camera heights] where the height is not known
   double sigma = 0.0;   ///< 1σ, in the same unit
+  LengthSource source = LengthSource::kRoadImage;
+  bool in_metres = false;
 };
 
 /// True length over length in the map.
@@ -52,8 +57,9 @@ struct StepLength {
   LengthSource source = LengthSource::kNone;  ///< whose word it is
   bool conflict = false;                      ///< road and map contradict each other
   bool refused = false;                       ///< somebody told metres that inertia does not allow
-  std::size_t landmarks = 0;                  ///< that carried it
-  std::size_t ground_acs = 0;                 ///< on the road, where it was asked
+  std::optional<MeasuredTravel> without_inertia;  ///< the measurement alone, where inertia helped
+  std::size_t landmarks = 0;                      ///< that carried it
+  std::size_t ground_acs = 0;                     ///< on the road, where it was asked
 };
 
 /// Two views of the same tracks.

@@ -43,8 +43,8 @@ void expect(const RoadTravelPrior& prior, double height, bool moves, RoadStep& s
 
 }  // namespace
 
-std::optional<RoadTravel> road_travel(const RoadPair& road, const TwoView& seen,
-                                      const RoadTravelPrior& prior) {
+std::optional<MeasuredTravel> road_travel(const RoadPair& road, const TwoView& seen,
+                                          const RoadTravelPrior& prior) {
   if (road.empty() || !(prior.seconds > 0.0)) return std::nullopt;
   const double height = prior.camera_height > 0.0 ? prior.camera_height : kUsualHeight;
   const bool directed = seen.status == StepStatus::kOk && seen.pose.t.norm() > 0.0;
@@ -58,8 +58,7 @@ std::optional<RoadTravel> road_travel(const RoadPair& road, const TwoView& seen,
   step.pitch_sigma = std::max(prior.first.pitch_sigma, step.pitch_sigma);
   step.roll_sigma = std::max(prior.first.roll_sigma, step.roll_sigma);
   expect(prior, height, directed, step);
-  const RoadAlignment aligned =
-      align_road(road.first, road.second, road.camera, step, road.mask);
+  const RoadAlignment aligned = align_road(road.first, road.second, road.camera, step, road.mask);
   if (aligned.status != RoadStatus::kMeasured) return std::nullopt;
   const double reach = kBeyond * aligned.sigma;  // the fit may leave what was searched
   if (aligned.length < step.min_length - reach || aligned.length > step.max_length + reach) {
@@ -68,7 +67,8 @@ std::optional<RoadTravel> road_travel(const RoadPair& road, const TwoView& seen,
   // Two views saw a translation: a road that rests contradicts them, and one of the two is wrong.
   if (directed && aligned.length < reach) return std::nullopt;
   const double unit = prior.camera_height > 0.0 ? prior.camera_height : 1.0;
-  return RoadTravel{aligned.length * unit, std::max(aligned.sigma, kLeastSigma) * unit};
+  return MeasuredTravel{aligned.length * unit, std::max(aligned.sigma, kLeastSigma) * unit,
+                        LengthSource::kRoadImage, prior.camera_height > 0.0};
 }
 
 }  // namespace oneac

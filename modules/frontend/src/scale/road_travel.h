@@ -35,7 +35,7 @@ struct RoadTravelPrior {
 
 /// Aligns the road of a step photometrically along the direction of two views, or along the heading
 /// where they found none. Empty unless the road says how long it was.
-[[nodiscard]] std::optional<RoadTravel> road_travel(const RoadPair& road, const TwoView& seen,
-                                                    const RoadTravelPrior& prior);
+[[nodiscard]] std::optional<MeasuredTravel> road_travel(const RoadPair& road, const TwoView& seen,
+                                                        const RoadTravelPrior& prior);
 
 }  // namespace oneac

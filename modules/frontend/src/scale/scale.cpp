@@ -1,6 +1,7 @@
 #include "scale.h"
 
 #include "depth_scale.h"
+#include "stereo_travel.h"
 
 #include "oneac/frontend/front_end_options.h"
 
@@ -49,7 +50,7 @@ void Scale::add_speed(const SpeedReading& told) {
 
 void Scale::restart(double time_s) {
   filter_.lose();
-  carried_variance_ = 0.0;
+  carried_ = {};
   interval_ = {};
   conflicts_ = 0;
   needs_road_image_ = true;
@@ -67,13 +68,15 @@ std::vector<LengthMeasurement> Scale::measure(const TwoView& seen,
   return {*road};
 }
 
-std::optional<RoadTravel> Scale::along_road(const RoadPair& road, const TwoView& seen,
-                                            const std::optional<LengthMeasurement>& carried,
-                                            const Levelling& first, const Eigen::Vector3d& heading,
-                                            const StepInTime& step) {
+std::optional<MeasuredTravel> Scale::measure_directly(
+    const RoadPair& road, const TwoView& seen, const std::optional<LengthMeasurement>& carried,
+    const Levelling& first, const Eigen::Vector3d& heading, const StepInTime& step) {
+  if (metres_ == LengthSource::kStereo) return stereo_travel(seen, heading, least_depths_);
   const bool resting = seen.status == StepStatus::kNoMotion;
   const bool in_use = metres_ == LengthSource::kRoad && camera_height() > 0.0;
-  const bool needed = !carried || !filter_.is_metric() || needs_road_image_ || conflicts_ > 0;
+  const bool unsure = !carried || !filter_.is_metric() ||
+                      stated(*carried).sigma > kSure * allowed_sigma(stated(*carried).length);
+  const bool needed = unsure || needs_road_image_ || conflicts_ > 0;
   const bool due = ++unchecked_ >= kCheckEvery;
   if (!resting && !(in_use && (needed || due))) return std::nullopt;
   if (seen.status == StepStatus::kPredicted) return std::nullopt;
@@ -87,30 +90,51 @@ StepLength Scale::length_of(const StepInTime& step,
                             const std::vector<LengthMeasurement>& measured) {
   const StepLength result = decided(step, measured);
   for (const LengthMeasurement& told : measured) {
-    if (told.source == LengthSource::kMap) carried_variance_ += told.sigma * told.sigma;
+    if (told.source != LengthSource::kMap) continue;
+    carried_.add(told.length, told.sigma);
   }
   speeds_.add_step(step.end_s, result.length);
   remember(step, result);
   return result;
 }
 
+void Scale::Carried::add(double length, double relative_sigma) {
+  steps_ += 1.0;
+  way_ += length;
+  relative_ += relative_sigma * relative_sigma;
+  absolute_ += relative_sigma * relative_sigma * length * length;
+}
+
+double Scale::Carried::variance() const {
+  if (!(way_ > 0.0)) return 0.0;
+  constexpr double kMany = 16.0;  // usual landmarks live for so many steps
+  constexpr double kEnds = 4.0;  // [σ of a step] of a way, for tracks that slip along with a patch
+  if (steps_ <= kMany) return relative_;
+  return std::min(relative_, kEnds * kEnds * absolute_ / steps_ / (way_ * way_));
+}
+
 void Scale::remember(const StepInTime& step, const StepLength& length) {
   inertia_.tick(step.begin_s, step.end_s);
   const bool measured = length.metric && length.source != LengthSource::kHeld;
-  if (step.road) conflicts_ = length.conflict ? conflicts_ + 1 : 0;
+  if (step.direct) conflicts_ = length.conflict ? conflicts_ + 1 : 0;
   if (length.source != LengthSource::kHeld || length.metric)
     contradicted_ = 0;
   else if (length.refused && ++contradicted_ >= kPatience)
     inertia_.forget();
-  if (measured) inertia_.tell(step.begin_s, step.end_s, length.length, length.sigma_m);
+  if (measured && length.without_inertia) {
+    const MeasuredTravel& told = *length.without_inertia;
+    inertia_.tell(step.begin_s, step.end_s, told.length, told.sigma);
+  } else if (measured) {
+    inertia_.tell(step.begin_s, step.end_s, length.length, length.sigma_m);
+  }
   if (length.metric && step.seconds() > 0.0) {
     last_metric_speed_ = length.length / step.seconds();
     last_metric_time_ = step.end_s;
   }
-  const StepLength road = by_road_image(step);
+  const StepLength direct = by_itself(step);
   const bool own = length.metric && length.source != LengthSource::kMap;
-  const StepLength& told = road.metric ? road : length;
-  if (!road.metric && !own) interval_.untold += told.length;
+  const StepLength& told = direct.metric ? direct : length;
+  if (!direct.metric && !own) interval_.untold += told.length;
   interval_.way += told.length;
   interval_.sigma_m += told.sigma_m;
 }
@@ -118,7 +142,7 @@ void Scale::remember(const StepInTime& step, const StepLength& length) {
 ScaleCorrection Scale::correct(const MapLengths& map, const Levelling& first, double focal_px) {
   ScaleCorrection correction;
   const double way = map.newest.T_2_1.t.norm();
-  correction.share = filter_.drift(way, std::exchange(carried_variance_, 0.0));
+  correction.share = filter_.drift(way, std::exchange(carried_, {}).variance());
   for (const ScaleMeasurement& told : measure(map, first, focal_px)) {
     correction.factor *= filter_.correct(told.ratio, told.sigma);
     if (filter_.began_anew()) correction.share = 0.0;  // what is new says nothing of the past
@@ -138,7 +162,8 @@ std::vector<ScaleMeasurement> Scale::measure(const MapLengths& map, const Levell
   if (metres_ == LengthSource::kSpeed) told = by_speed();
   if (metres_ == LengthSource::kStereo) told = scale_by_depths(map.depths, least_depths_);
   if (metres_ == LengthSource::kRoad) told = by_road(map.newest, first, focal_px);
-  const auto interval = metres_ == LengthSource::kRoad ? by_interval(map.newest) : std::nullopt;
+  const bool directly = metres_ == LengthSource::kRoad || metres_ == LengthSource::kStereo;
+  const auto interval = directly ? by_interval(map.newest) : std::nullopt;
   // Corners of the bonnet or of traffic may look like a road; the grey values know better.
   const bool contradicted = told && interval && told->source == LengthSource::kRoad &&
                             std::abs(std::log(told->ratio / interval->ratio)) >
@@ -162,8 +187,9 @@ std::optional<ScaleMeasurement> Scale::by_road(const KeyframePair& pair, const L
 std::optional<ScaleMeasurement> Scale::by_interval(const KeyframePair& pair) const {
   const double in_map = pair.T_2_1.t.norm();
   if (!interval_.is_told() || !(in_map > 0.0)) return std::nullopt;
-  return ScaleMeasurement{interval_.way / in_map, std::max(interval_.sigma(), 1e-3),
-                          LengthSource::kRoadImage, 0};
+  return ScaleMeasurement{
+      interval_.way / in_map, std::max(interval_.sigma(), 1e-3),
+      metres_ == LengthSource::kStereo ? LengthSource::kStereo : LengthSource::kRoadImage, 0};
 }
 
 std::optional<ScaleMeasurement> Scale::by_speed() {

@@ -20,10 +20,10 @@ namespace oneac {
 /// A step whose length is asked.
 struct StepInTime {
   StepStatus status = StepStatus::kPredicted;
-  double begin_s = 0.0, end_s = 0.0;   ///< [s] Unix times of the two frames
-  RelativePose expected;               ///< motion of the step before, length as used
-  std::optional<RoadTravel> road;      ///< what the grey values of the road say of it
-  std::optional<RoadTravel> evidence;  ///< of a rest, what its near points say [camera heights]
+  double begin_s = 0.0, end_s = 0.0;       ///< [s] Unix times of the two frames
+  RelativePose expected;                   ///< motion of the step before, length as used
+  std::optional<MeasuredTravel> direct;    ///< what the road's grey values or stereo say of it
+  std::optional<MeasuredTravel> evidence;  ///< of a rest, what its near points say [camera heights]
 
   [[nodiscard]] double seconds() const { return end_s - begin_s; }
 };
@@ -51,10 +51,11 @@ class Scale {
   [[nodiscard]] std::vector<LengthMeasurement> measure(
       const TwoView& seen, const std::optional<LengthMeasurement>& carried,
       const Levelling& first) const;
-  /// What the grey values of the road say of a step; asked where they are needed: where the map
-  /// does not carry the length, where rest is in question, and now and then as a check.
+  /// What the step itself says of its length: depths by stereo where these are the metres, else
+  /// the grey values of the road, asked where they are needed: where the map does not carry the
+  /// length, where rest is in question, and now and then as a check.
   /// @param heading  t̂ of a camera that goes on as it did
-  [[nodiscard]] std::optional<RoadTravel> along_road(
+  [[nodiscard]] std::optional<MeasuredTravel> measure_directly(
       const RoadPair& road, const TwoView& seen, const std::optional<LengthMeasurement>& carried,
       const Levelling& first, const Eigen::Vector3d& heading, const StepInTime& step);
   /// What inertia lets expect; empty while no speed is known.
@@ -83,9 +84,23 @@ class Scale {
   static constexpr int kPatience = 5;  ///< steps in a row
   /// [σ] Two lengths of one step that are farther apart contradict each other.
   static constexpr double kContradiction = 4.0;
+  /// [-] Share of the bound on a metric length up to which it needs no help.
+  static constexpr double kSure = 0.5;
 
   static constexpr double kMostUntold = 0.2;  ///< [-] share of a way that is still told by the rest
   static constexpr double kUntold = 0.3;      ///< relative 1σ of a length that inertia alone told
+
+  /// What landmarks carried over several steps.
+  class Carried {
+   public:
+    void add(double length, double relative_sigma);
+    /// Relative variance of the way: that of its steps; more of them than landmarks usually live
+    /// for are those of a car that creeps, all seen by the same, and only its ends are uncertain.
+    [[nodiscard]] double variance() const;
+
+   private:
+    double steps_ = 0.0, way_ = 0.0, relative_ = 0.0, absolute_ = 0.0;
+  };
 
   /// Since the last keyframe: the way as others than the map tell it.
   struct Interval {
@@ -102,9 +117,12 @@ class Scale {
                                    const std::vector<LengthMeasurement>& measured) const;
   [[nodiscard]] StepLength chosen(const std::vector<StepLength>& told,
                                   const StepInTime& step) const;
+  [[nodiscard]] StepLength together(const StepLength& a, const StepLength& b,
+                                    const std::optional<ExpectedLength>& expected) const;
+  [[nodiscard]] StepLength steadied(const StepLength& told, const ExpectedLength& expected) const;
   [[nodiscard]] StepLength held(const StepInTime& step) const;
   [[nodiscard]] StepLength at_rest(const StepInTime& step) const;
-  [[nodiscard]] StepLength by_road_image(const StepInTime& step) const;
+  [[nodiscard]] StepLength by_itself(const StepInTime& step) const;
   void remember(const StepInTime& step, const StepLength& length);
   [[nodiscard]] std::optional<ScaleMeasurement> by_interval(const KeyframePair& pair) const;
   [[nodiscard]] StepLength stated(const LengthMeasurement& measured) const;
@@ -126,7 +144,7 @@ class Scale {
   ScaleFilter filter_;
   RoadLength road_;
   SpeedScale speeds_;
-  double carried_variance_ = 0.0;   ///< relative, of what landmarks carried since the last keyframe
+  Carried carried_;                 ///< since the last keyframe
   double last_metric_speed_ = 0.0;  ///< [m/s]
   double last_metric_time_ = 0.0;   ///< [s]
   Inertia inertia_;

@@ -3,15 +3,19 @@
 #include "oneac/features/stereo_matching.h"
 
 #include <algorithm>
+#include <cmath>
 #include <vector>
 
 namespace oneac {
 namespace {
 
-// Depths of a frame: their scatter falls below that of the calibration long before.
-constexpr std::size_t kMost = 200;
+// Points of a frame that are looked for: the near ones are few, and all of them count.
+constexpr std::size_t kMost = 1000;
 // [px] a smaller disparity is a depth to 5 % and worse.
 constexpr double kLeastDisparity = 3.0;
+// [px] 1σ of a disparity by what rectification leaves, alike for neighbours: in the rectified
+// images of published drives depths at the picture's border are wrong by half a pixel.
+constexpr double kRectification = 0.3;
 
 }  // namespace
 
@@ -24,8 +28,9 @@ TrackedPair with_stereo_depths(TrackedPair pair, const CameraFrame& frame) {
   const auto found = match_along_rows(frame.image.view(), frame.right.view(), points);
   for (std::size_t k = 0; k < found.size(); ++k) {
     if (!found[k] || found[k]->px < kLeastDisparity) continue;
-    pair.correspondences[k * stride].depth = MeasuredDepth{
-        frame.camera.fx * frame.baseline_m / found[k]->px, found[k]->sigma_px / found[k]->px};
+    pair.correspondences[k * stride].depth =
+        MeasuredDepth{frame.camera.fx * frame.baseline_m / found[k]->px,
+                      std::hypot(found[k]->sigma_px, kRectification) / found[k]->px};
   }
   return pair;
 }

@@ -49,6 +49,11 @@ struct FrameResult {
   /// Camera in the first camera's frame, as known now; `settled` of a later result has the final
   /// one.
   Eigen::Isometry3d T_first_cam = Eigen::Isometry3d::Identity();
+  /// The same by the steps alone, one after the other as each was told when it came: it drifts, but
+  /// never jumps and is never corrected (`odom` of ROS, where T_first_cam is `map`).
+  Eigen::Isometry3d T_odom_cam = Eigen::Isometry3d::Identity();
+  /// What lengths of the past were multiplied with when this frame came; 1: they are as before.
+  double rescaled = 1.0;
   std::optional<StepResult> step;  ///< none for the first frame
   TiltBelief tilt;         ///< of the camera on the vehicle, as believed now: changes slowly
   AngleBelief suspension;  ///< [rad] pitch up that the springs add in this frame, against the road
