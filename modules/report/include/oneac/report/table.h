@@ -7,10 +7,10 @@
 namespace oneac {
 
 struct Cell {
-  enum class Mark { none, best, bad };
+  enum class Mark { kNone, kBest, kBad };
 
   std::string text;
-  Mark mark = Mark::none;
+  Mark mark = Mark::kNone;
 };
 
 /// Rows of cells under a head, which may be empty.
