@@ -13,6 +13,7 @@ struct Trajectory {
   std::vector<double> times;  ///< Unix time [s], strictly increasing; empty or as many as poses
   std::vector<Eigen::Isometry3d> poses;
 
+  /// A time per pose, else none.
   [[nodiscard]] bool has_times() const { return !times.empty(); }
   /// @throws std::invalid_argument naming the row: times that do not fit the poses or do not
   ///         increase, numbers that are not finite

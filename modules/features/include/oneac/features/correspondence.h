@@ -38,6 +38,7 @@ struct TrackedPair {
   std::vector<Correspondence> correspondences;
   bool standing = false;  ///< the images are near-identical: the camera stood
 
+  /// Of correspondences.
   [[nodiscard]] std::size_t size() const { return correspondences.size(); }
   [[nodiscard]] bool empty() const { return correspondences.empty(); }
 };

@@ -68,6 +68,7 @@ class RawlogSource {
   /// Reads on (without images) up to two seconds past the last image, so that the reference covers
   /// the drive; then `report` is complete. Call when done.
   void finish();
+  /// What was read, missing and passed over so far.
   [[nodiscard]] const SourceReport& report() const;
   /// Share of the file read so far, 0 … 1, for a progress bar.
   [[nodiscard]] double progress() const;

@@ -16,6 +16,7 @@ enum class MotionModel {
   kRotation,     ///< x2 = π(R x1)
   kTranslation,  ///< an epipolar geometry with depths in front of the camera
 };
+/// "still", "rotation" or "translation".
 [[nodiscard]] const char* to_string(MotionModel model);
 
 /// What is known of the motion before the points are looked at: inertia,
@@ -28,6 +29,7 @@ struct MotionPrior {
   double length = 0.0;                                  ///< expected |t| [camera heights]
   double length_sigma = kUnknown;                       ///< 1σ of it [camera heights]
 
+  /// @throws std::invalid_argument naming field, value and bound
   void validate() const;
 };
 
@@ -45,6 +47,7 @@ struct MotionEvidenceOptions {
                                ///< and not the vehicle ahead: six metres at a height of 1.5 m
   double decided = 3.0;        ///< log-odds needed for a translation: 20 to 1
 
+  /// @throws std::invalid_argument naming field, value and bound
   void validate() const;
 };
 
