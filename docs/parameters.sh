@@ -23,7 +23,7 @@ HEAD
     section = path[0]
     for (i = 1; i < depth; ++i) section = section "." path[i]
     if (section != last) {
-      printf "\n## %s\n\n| key | default | unit | meaning |\n|---|---|---|---|\n", section
+      printf "\n## %s\n\n| key | default | unit | must be | meaning |\n|---|---|---|---|---|\n", section
       last = section
     }
     value = line
@@ -35,5 +35,11 @@ HEAD
     close_at = index(comment, "]")
     meaning = substr(comment, close_at + 2)
     gsub(/[|]/, "\\|", meaning)
-    printf "| `%s` | `%s` | %s | %s |\n", name, value, substr(comment, 1, close_at - 1), meaning
+    unit = substr(comment, 1, close_at - 1)
+    bound = ""
+    if (comma = index(unit, ", ")) {
+      bound = substr(unit, comma + 2)
+      unit = substr(unit, 1, comma - 1)
+    }
+    printf "| `%s` | `%s` | %s | %s | %s |\n", name, value, unit, bound, meaning
   }'

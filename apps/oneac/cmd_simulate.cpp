@@ -1,7 +1,7 @@
 #include "commands.h"
-#include "interrupt.h"
-#include "progress_bar.h"
-#include "simulate_flags.h"
+#include "simulate/simulate_flags.h"
+#include "terminal/interrupt.h"
+#include "terminal/progress_bar.h"
 
 #include "oneac/base/error.h"
 #include "oneac/geometry/camera_frame.h"

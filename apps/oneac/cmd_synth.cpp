@@ -1,6 +1,6 @@
 #include "commands.h"
-#include "interrupt.h"
-#include "progress_bar.h"
+#include "terminal/interrupt.h"
+#include "terminal/progress_bar.h"
 
 #include "oneac/base/atomic_file.h"
 #include "oneac/base/error.h"
@@ -134,17 +134,17 @@ void add_synth(CLI::App& program) {
       ->capture_default_str();
   verb->add_option("--seed", options.seed, "Everything random follows from it")
       ->capture_default_str();
-  const std::map<std::string, NoiseShape> shapes = {{"uniform", NoiseShape::uniform},
-                                                    {"fixed", NoiseShape::fixed},
-                                                    {"normal", NoiseShape::normal},
-                                                    {"common", NoiseShape::common}};
+  const std::map<std::string, NoiseShape> shapes = {{"uniform", NoiseShape::kUniform},
+                                                    {"fixed", NoiseShape::kFixed},
+                                                    {"normal", NoiseShape::kNormal},
+                                                    {"common", NoiseShape::kCommon}};
   verb->add_option(
           "--noise-shape", options.noise_shape,
           "Affine errors uniform up to the level (default), of exactly it (fixed), normal, or "
           "uniform with a common angle for both rotations")
       ->transform(CLI::CheckedTransformer(shapes));
   verb->add_flag_callback(
-      "--minimal-data", [&options] { options.data_use = DataUse::minimal; },
+      "--minimal-data", [&options] { options.data_use = DataUse::kMinimal; },
       "1AC uses one of a trial's four correspondences, 2AC two; else every method uses all");
   verb->add_flag("!--no-readings", arguments->readings,
                  "Leave out the table that judges the claims under every reading of the paper");

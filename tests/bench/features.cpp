@@ -12,7 +12,7 @@
 #include "oneac/features/feature_options.h"
 #include "oneac/geometry/angular_errors.h"
 #include "oneac/geometry/homography.h"
-#include "oneac/geometry/leveling.h"
+#include "oneac/geometry/levelling.h"
 #include "oneac/solvers/registry.h"
 
 #include <Eigen/LU>
@@ -141,7 +141,7 @@ std::vector<RelativePose> hypotheses(const AffineCorrespondence& ac) {
 }
 
 void judge(const TrackedPair& pair, const RelativePose& truth, const Settings& s, Tally& tally) {
-  const Eigen::Matrix3d L = leveling_rotation(s.tilt);
+  const Eigen::Matrix3d L = levelling_rotation(s.tilt);
   const RelativePose level_truth = level(truth, L);
   for (const auto& ac_px : pair.correspondences) {
     ++tally.judged;
@@ -196,7 +196,7 @@ void run(const Settings& s, std::vector<Contestant>& all) {
   const auto poses = s.poses.empty() ? std::vector<Eigen::Matrix4d>{} : read_poses(s.poses);
   MotionHint hint;  // the motion of the pair before: what a front-end knows
   hint.camera = s.camera;
-  hint.R_level_cam = leveling_rotation(s.tilt);
+  hint.R_level_cam = levelling_rotation(s.tilt);
   std::size_t last = 0, done = 0;
   for (std::size_t i = 0; i < paths.size() && (s.count == 0 || done < s.count); i += s.every) {
     const cv::Mat image = cv::imread(paths[i], cv::IMREAD_GRAYSCALE);

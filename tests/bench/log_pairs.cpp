@@ -2,7 +2,7 @@
 
 #include "oneac/features/ac_tracker.h"
 #include "oneac/features/feature_options.h"
-#include "oneac/geometry/leveling.h"
+#include "oneac/geometry/levelling.h"
 #include "oneac/rawlog/rawlog_source.h"
 #include "oneac/robust/one_ac_consensus.h"
 
@@ -25,7 +25,7 @@ std::vector<LogPair> pairs_of_log(const std::string& log, std::size_t every,
   while (const auto ticket = source.next()) {
     CameraFrame now = source.load(*ticket);
     hint.camera = now.camera;
-    hint.R_level_cam = leveling_rotation(tilt_from_mounting(now.T_vehicle_cam.linear()));
+    hint.R_level_cam = levelling_rotation(tilt_from_mounting(now.T_vehicle_cam.linear()));
     const bool first = before.camera.width == 0;
     const TrackedPair tracked = tracker->advance(tracker->prepare(now.image.view()), hint);
     if (!first) {

@@ -62,7 +62,7 @@ void draw(const std::string& path, std::vector<PlotSeries> series) {
   plot.x_label = "wrong correspondences [%]";
   plot.y_label = "time [log10 of µs]";
   for (PlotSeries& curve : series) {
-    curve.pen = Pen::markers;
+    curve.pen = Pen::kMarkers;
     for (const double share : kShares) curve.x.push_back(100.0 * share);
   }
   plot.series = std::move(series);

@@ -12,7 +12,7 @@
 #include "oneac/features/road_alignment.h"
 
 #include "oneac/base/thread_clock.h"
-#include "oneac/geometry/leveling.h"
+#include "oneac/geometry/levelling.h"
 
 #include <Eigen/Geometry>
 #include <opencv2/core.hpp>
@@ -226,7 +226,8 @@ RoadStep step_of(const Row& pair, const Row& tilt, double height, const Settings
   step.information =
       motion_information(s.value("--rotation-sigma", 0.0004), s.value("--direction-sigma", 0.01));
   const double pitch = number(tilt, "pitch_up_deg") + number(tilt, "suspension_pitch_deg");
-  step.R_level_cam = leveling_rotation({pitch * kDegree, number(tilt, "roll_right_deg") * kDegree});
+  step.R_level_cam =
+      levelling_rotation({pitch * kDegree, number(tilt, "roll_right_deg") * kDegree});
   step.pitch_sigma = kDegree * std::clamp(number(tilt, "suspension_sigma_deg"),
                                           s.value("--least-pitch-sigma", 0.1), 1.0);
   step.roll_sigma = kDegree * std::clamp(number(tilt, "roll_sigma_deg"), 0.3, 1.5);
@@ -239,7 +240,8 @@ struct ReadOptions {
   const Settings& settings;
 
   template <class Field>
-  void operator()(const char* key, Field& field, const char*, const char*) const {
+  void operator()(const char* key, Field& field, const char*, const char*,
+                  const Bound& = {}) const {
     field = static_cast<Field>(settings.value(std::string("--road.") + key, field));
   }
 };

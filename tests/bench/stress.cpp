@@ -2,7 +2,7 @@
 
 #include "oneac/base/thread_clock.h"
 #include "oneac/geometry/homography.h"
-#include "oneac/geometry/leveling.h"
+#include "oneac/geometry/levelling.h"
 
 #include <cstdint>
 #include <random>

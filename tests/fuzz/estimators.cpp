@@ -1,7 +1,7 @@
 // The robust estimators on any doubles, small budgets: no NaN, counts agree.
 #include "correspondences.h"
 
-#include "oneac/geometry/leveling.h"
+#include "oneac/geometry/levelling.h"
 #include "oneac/robust/gc_ransac.h"
 #include "oneac/robust/ground_scale.h"
 #include "oneac/robust/one_ac_consensus.h"
@@ -67,7 +67,7 @@ ONEAC_FUZZ_TARGET(estimators) {
   const std::uint8_t kinds = numbers.byte();
   const Solver& solver = solvers()[numbers.byte() % solvers().size()];
   const std::size_t count = numbers.byte() % kMost;
-  const Eigen::Matrix3d R_level_cam = leveling_rotation({0.1, 0.02});
+  const Eigen::Matrix3d R_level_cam = levelling_rotation({0.1, 0.02});
   const auto acs = fuzz::correspondences(numbers, count);
 
   const auto consensus = one_ac_consensus(acs, R_level_cam, kFocal_px, small_consensus(kinds));

@@ -1,4 +1,4 @@
-#include <oneac/geometry/leveling.h>
+#include <oneac/geometry/levelling.h>
 #include <oneac/initialisers/relative_pose_initialiser.h>
 #include <oneac/solvers/gravity.h>
 #include <oneac/solvers/relpose_1ac_ground.h>

@@ -115,7 +115,9 @@ std::string ParameterTable::to_yaml(bool comments) const {
     std::string line = std::string(2 * path.size(), ' ') + name + ": " + value_text(parameter);
     if (comments) {
       line.append(line.size() < 40 ? 40 - line.size() : 1, ' ');
-      line += "# [" + parameter.unit + "] " + parameter.meaning;
+      const std::string bound = parameter.bound.text();
+      line +=
+          "# [" + parameter.unit + (bound.empty() ? "" : ", " + bound) + "] " + parameter.meaning;
     }
     yaml += line + "\n";
   }

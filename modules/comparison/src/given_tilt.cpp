@@ -26,7 +26,7 @@ Tilt corrected_by_travel(const Tilt& given, const std::vector<Eigen::Vector3d>& 
   for (const Eigen::Vector3d& t : translations) {
     if (!(t.norm() > 0.0)) continue;
     // Points move against the camera; backwards is the same line.
-    Eigen::Vector3d travel = leveling_rotation(given) * -t.normalized();
+    Eigen::Vector3d travel = levelling_rotation(given) * -t.normalized();
     if (travel.z() < 0.0) travel = -travel;
     // A camera pitched up sees its travel below the axis, Y down.
     const double elevation = std::atan2(travel.y(), travel.z());

@@ -135,7 +135,7 @@ std::string log_sentence(const LogRecord& log) {
 
 Cell error_cell(const PairRecord& pair, const MethodResult& result) {
   const ResultError error = error_of(pair, result);
-  Cell cell{"no pose", error.failed ? Cell::Mark::bad : Cell::Mark::none};
+  Cell cell{"no pose", error.failed ? Cell::Mark::kBad : Cell::Mark::kNone};
   if (!result.has_pose) return cell;
   cell.text = error.rotation ? three_digits(*error.rotation / kDegree) + "°" : result.status;
   if (error.rotation && error.direction) {

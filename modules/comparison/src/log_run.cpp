@@ -76,7 +76,7 @@ bool LogRun::learn_tilt() {
   if (!settings_.tilt.refine) return hooks_.keep_going();
   const auto method =
       make_method(plan_methods({kTiltMethod}, {"default"}).front(), settings_.method_parameters);
-  const Eigen::Matrix3d R_level_cam = leveling_rotation(record_.tilt);
+  const Eigen::Matrix3d R_level_cam = levelling_rotation(record_.tilt);
   const std::set<std::size_t> chosen = spread(scan_.pairs());
   struct Learned {
     std::size_t ordinal;
@@ -102,7 +102,7 @@ bool LogRun::learn_tilt() {
 }
 
 void LogRun::prepare_reference() {
-  R_level_cam_ = leveling_rotation(record_.tilt);
+  R_level_cam_ = levelling_rotation(record_.tilt);
   const std::string poses =
       settings_.reference.empty() ? find_poses_beside(source_.log) : settings_.reference;
   if (!poses.empty()) {

@@ -78,7 +78,7 @@ class LogDrawing {
     const PairAcs acs = pair.correspond(extractor_);
     InitialiserInput input;
     input.acs = acs.acs;
-    input.R_level_cam = leveling_rotation(log.tilt);
+    input.R_level_cam = levelling_rotation(log.tilt);
     input.focal_px = acs.camera.focal_px();
     input.seed = settings_.seed;
     return overlay_of(source.load(second).image, acs, method_->estimate(input).inliers);

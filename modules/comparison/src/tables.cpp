@@ -110,7 +110,8 @@ std::vector<TableBlock> table_blocks(const std::vector<MethodSummary>& rows) {
 }
 
 Cell cell_of(const TableBlock& block, std::size_t method, std::size_t log) {
-  return {block.cells[method][log], block.best[method][log] ? Cell::Mark::best : Cell::Mark::none};
+  return {block.cells[method][log],
+          block.best[method][log] ? Cell::Mark::kBest : Cell::Mark::kNone};
 }
 
 std::string table_md(const std::vector<TableBlock>& blocks) {
@@ -120,7 +121,7 @@ std::string table_md(const std::vector<TableBlock>& blocks) {
   table.head.insert(table.head.end(), logs.begin(), logs.end());
   for (const TableBlock& block : blocks) {
     for (std::size_t m = 0; m < block.methods.size(); ++m) {
-      table.rows.push_back({{m == 0 ? block.title : "", Cell::Mark::best}, {block.methods[m]}});
+      table.rows.push_back({{m == 0 ? block.title : "", Cell::Mark::kBest}, {block.methods[m]}});
       for (std::size_t log = 0; log < block.logs.size(); ++log) {
         table.rows.back().push_back(cell_of(block, m, log));
       }

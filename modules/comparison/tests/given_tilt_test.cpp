@@ -9,7 +9,7 @@ constexpr double kDegree = 3.14159265358979323846 / 180.0;
 
 /// Translation of a camera with this tilt on a vehicle that drives straight on, or back.
 Eigen::Vector3d driving(const Tilt& tilt, double step) {
-  return leveling_rotation(tilt).transpose() * Eigen::Vector3d(0.0, 0.0, -step);
+  return levelling_rotation(tilt).transpose() * Eigen::Vector3d(0.0, 0.0, -step);
 }
 
 TEST(CorrectedByTravel, FindsTheTruePitch) {

@@ -1,7 +1,7 @@
 #include "oneac/features/ac_tracker.h"
 
-#include "klt_tracker.h"
-#include "matched_tracker.h"
+#include "klt/klt_tracker.h"
+#include "matching/matched_tracker.h"
 
 #include "oneac/features/feature_options.h"
 #include "oneac/features/sift_extractor.h"

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "patch_alignment.h"
+#include "patch/patch_alignment.h"
 
 #include "oneac/features/correspondence.h"
 

@@ -1,6 +1,6 @@
-#include "motion_prediction.h"
+#include "klt/motion_prediction.h"
 
-#include "oneac/geometry/leveling.h"
+#include "oneac/geometry/levelling.h"
 
 #include <gtest/gtest.h>
 
@@ -14,7 +14,7 @@ MotionHint hint(bool scaled) {
   hint.camera.fy = 650.0;
   hint.camera.cx = 600.0;
   hint.camera.cy = 200.0;
-  hint.R_level_cam = leveling_rotation({0.087, 0.0});
+  hint.R_level_cam = levelling_rotation({0.087, 0.0});
   hint.T_2_1 = RelativePose{rotation_from_vector({0.01, 0.05, -0.02}), {0.1, 0.02, -0.7}};
   hint.scaled = scaled;
   return hint;

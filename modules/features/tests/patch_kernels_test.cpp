@@ -1,6 +1,6 @@
-#include "patch_kernels.h"
+#include "patch/patch_kernels.h"
 
-#include "patch_window.h"
+#include "patch/patch_window.h"
 #include "texture.h"
 
 #include <gtest/gtest.h>

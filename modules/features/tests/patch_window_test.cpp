@@ -1,7 +1,7 @@
-#include "patch_window.h"
+#include "patch/patch_window.h"
 
-#include "patch_alignment.h"
-#include "patch_kernels.h"
+#include "patch/patch_alignment.h"
+#include "patch/patch_kernels.h"
 #include "texture.h"
 
 #include <gtest/gtest.h>

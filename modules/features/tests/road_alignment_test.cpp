@@ -2,7 +2,7 @@
 
 #include "texture.h"
 
-#include "oneac/geometry/leveling.h"
+#include "oneac/geometry/levelling.h"
 
 #include <gtest/gtest.h>
 
@@ -39,12 +39,12 @@ struct Drive {
   [[nodiscard]] RelativePose pose() const {
     const RelativePose level{yaw_rotation(std::cos(yaw), std::sin(yaw)) * pitch_rotation(pitch),
                              length * Eigen::Vector3d(0.02, 0.0, -1.0).normalized()};
-    return unlevel(level, leveling_rotation(tilt));
+    return unlevel(level, levelling_rotation(tilt));
   }
   [[nodiscard]] GreyImage view(bool second) const {
     const PinholeCamera camera = camera_of_road();
     const RelativePose T_1_2 = pose().inverse();
-    const Eigen::Matrix3d L = leveling_rotation(tilt);
+    const Eigen::Matrix3d L = levelling_rotation(tilt);
     const Eigen::Matrix3d R = second ? Eigen::Matrix3d(L * T_1_2.R) : L;
     const Eigen::Vector3d centre = second ? Eigen::Vector3d(L * T_1_2.t) : Eigen::Vector3d::Zero();
     GreyImage image(camera.width, camera.height);
@@ -69,7 +69,7 @@ struct Drive {
     step.T_2_1 = pose();
     step.T_2_1.t.normalize();
     step.information = motion_information(0.0003, 0.005);
-    step.R_level_cam = leveling_rotation(tilt);
+    step.R_level_cam = levelling_rotation(tilt);
     step.max_length = 2.0;
     return step;
   }
@@ -122,7 +122,7 @@ TEST(RoadAlignment, MeasuresBackwards) {
   const RelativePose back = drive.pose().inverse();
   RoadStep step = drive.step();
   step.T_2_1 = {back.R, back.t.normalized()};
-  step.R_level_cam = leveling_rotation(drive.tilt) * drive.pose().R.transpose();
+  step.R_level_cam = levelling_rotation(drive.tilt) * drive.pose().R.transpose();
   const RoadAlignment result =
       align_road(RoadImage(second.view()), RoadImage(first.view()), camera_of_road(), step);
   expect_true(result, drive.length);
@@ -131,7 +131,7 @@ TEST(RoadAlignment, MeasuresBackwards) {
 TEST(RoadAlignment, TakesAWrongPitchIntoItsSigma) {
   const Drive drive{asphalt(6)};
   RoadStep step = drive.step();
-  step.R_level_cam = leveling_rotation({drive.tilt.pitch_up + 0.006, 0.0});
+  step.R_level_cam = levelling_rotation({drive.tilt.pitch_up + 0.006, 0.0});
   const RoadAlignment result = drive.align(step);
   EXPECT_EQ(result.status, RoadStatus::kMeasured) << to_string(result.status);
   EXPECT_NEAR(result.length, drive.length, 3.0 * result.sigma);

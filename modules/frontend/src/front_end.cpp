@@ -52,6 +52,7 @@ const char* to_string(StepStatus status) {
 FrontEnd::FrontEnd(const FrontEndOptions& options)
     : COutputLogger("oneac.FrontEnd"),
       options_(options),
+      stereo_(options.scale.source == "stereo"),
       intake_(intake_options(options)),
       profiler_(true, "", true) {
   options_.validate();
@@ -85,8 +86,7 @@ FrameResult FrontEnd::process(PreparedFrame prepared) {
     road = {previous_road_, road_image(prepared.features, frame.image.view()), frame.camera, {}};
     correspondences_ = tracker_->advance(std::move(prepared.features), hint());
     road.mask = tracker_->unused();
-    if (options_.scale.source == "stereo")
-      correspondences_ = with_stereo_depths(std::move(correspondences_), frame);
+    if (stereo_) correspondences_ = with_stereo_depths(std::move(correspondences_), frame);
     pair = normalised(correspondences_, previous_camera_, frame);
   }
   previous_camera_ = frame.camera;
@@ -116,7 +116,7 @@ FrameResult FrontEnd::process(PreparedFrame prepared) {
 MotionHint FrontEnd::hint() const {
   MotionHint hint;
   hint.camera = previous_camera_;
-  hint.R_level_cam = leveling_rotation(tilt());
+  hint.R_level_cam = levelling_rotation(tilt());
   hint.T_2_1 = odometry_->expected();
   if (!hint.T_2_1) return hint;
   hint.scaled = odometry_->scale().is_metric() && camera_height() > 0.0;

@@ -182,7 +182,7 @@ FrameResult Odometry::integrate(const FrameStamp& now, TwoView seen, const RoadP
   const StepResult step = step_result(before, now, seen, length, map_.segment());
   attitude_.follow(step);
   const RelativePose motion = motion_of(step);
-  const auto lengths = map_.move(now, motion, seen, leveling_rotation(attitude_.mounting().tilt),
+  const auto lengths = map_.move(now, motion, seen, levelling_rotation(attitude_.mounting().tilt),
                                  scale_.lengths_hold());
   const auto correction = scale_correction(lengths, seen.focal_px);
   last_motion_ = {motion.R, motion.t * (correction ? correction->factor : 1.0)};

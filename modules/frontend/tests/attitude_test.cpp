@@ -25,7 +25,7 @@ StepResult ahead(double pitch_up) {
   step.time2 = 0.1;
   step.metric = true;
   step.length = 1.0;
-  step.pose.t = leveling_rotation({pitch_up, 0.0}).transpose() * Eigen::Vector3d(0.0, 0.0, -1.0);
+  step.pose.t = levelling_rotation({pitch_up, 0.0}).transpose() * Eigen::Vector3d(0.0, 0.0, -1.0);
   return step;
 }
 

@@ -54,7 +54,7 @@ double sigma_of(const SuspensionTilt& filter) {
 
 /// R_level_cam on the road of that moment, then R_world_cam.
 Eigen::Matrix3d against_road(const Drive& drive, double t) {
-  return leveling_rotation({drive.pitch(t), drive.roll(t)});
+  return levelling_rotation({drive.pitch(t), drive.roll(t)});
 }
 Eigen::Matrix3d in_world(const Drive& drive, double t) {
   const Eigen::Matrix3d road = (Eigen::AngleAxisd(drive.yaw(t), Eigen::Vector3d::UnitY()) *
@@ -189,9 +189,9 @@ TEST(SuspensionTilt, KeepsTheRollOfTheMountingInTheLongRun) {
 
 TEST(SuspensionTilt, KnowsHowItLeanedBefore) {
   const SuspensionTilt filter({{2.0 * kDegree, 1.0 * kDegree}, 0.1, 0.1});
-  const Eigen::Matrix3d before = leveling_rotation({0.5 * kDegree, -1.0 * kDegree});
+  const Eigen::Matrix3d before = levelling_rotation({0.5 * kDegree, -1.0 * kDegree});
   const Eigen::Matrix3d yawed = Eigen::AngleAxisd(0.3, Eigen::Vector3d::UnitY()).toRotationMatrix();
-  const Eigen::Matrix3d now = leveling_rotation(filter.tilt().tilt);
+  const Eigen::Matrix3d now = levelling_rotation(filter.tilt().tilt);
   const Tilt found = filter.tilt_before(now.transpose() * yawed * before);
   EXPECT_NEAR(found.pitch_up, 0.5 * kDegree, 1e-12);
   EXPECT_NEAR(found.roll_right, -1.0 * kDegree, 1e-12);

@@ -15,7 +15,7 @@ constexpr double kDegree = 3.14159265358979323846 / 180.0;
 /// t of a camera with this pitch that drives `metres` along its road, nose wandering a little.
 RelativePose step_of(double pitch_up, double metres, double side = 0.0) {
   const Eigen::Vector3d t_level(side, 0.0, -metres);
-  return {Eigen::Matrix3d::Identity(), leveling_rotation({pitch_up, 0.0}).transpose() * t_level};
+  return {Eigen::Matrix3d::Identity(), levelling_rotation({pitch_up, 0.0}).transpose() * t_level};
 }
 
 TEST(TiltEstimator, StartsWithTheGivenTilt) {
@@ -88,7 +88,7 @@ TEST(TiltEstimator, LearnsRollFromTheAxisOfTurning) {
   TiltOptions options;
   options.source = "drive";
   TiltEstimator estimator({}, options);
-  const Eigen::Matrix3d L = leveling_rotation({3.0 * kDegree, 2.0 * kDegree});
+  const Eigen::Matrix3d L = levelling_rotation({3.0 * kDegree, 2.0 * kDegree});
   SceneGenerator scene(63);
   for (int i = 0; i < 60; ++i) {
     const double turn = 2.0 * kDegree;
@@ -107,7 +107,7 @@ TEST(TiltEstimator, LearnsRollFromTheAxisOfTurning) {
 TEST(TiltEstimator, DoesNotForgetTheBendOnTheStraightRoad) {
   TiltEstimator estimator({}, {});
   const double roll = 1.0 * kDegree;
-  const Eigen::Matrix3d L = leveling_rotation({0.0, roll});
+  const Eigen::Matrix3d L = levelling_rotation({0.0, roll});
   SceneGenerator scene(64);
   const auto drive = [&](double turn) {
     const Eigen::Matrix3d bounce = rotation_from_vector({scene.normal(0.2 * kDegree), 0.0, 0.0});
@@ -149,7 +149,7 @@ TEST(TiltFromGravity, InvertsTheLevellingRotation) {
   const Tilt truth{8.2 * kDegree, -1.5 * kDegree};
   Eigen::Matrix3d R_vehicle_level;
   R_vehicle_level << 0, 0, 1, -1, 0, 0, 0, -1, 0;
-  const Eigen::Matrix3d R_vehicle_cam = R_vehicle_level * leveling_rotation(truth);
+  const Eigen::Matrix3d R_vehicle_cam = R_vehicle_level * levelling_rotation(truth);
   const Tilt found = tilt_from_gravity(R_vehicle_cam, {0.0, 0.0, 9.81});
   EXPECT_NEAR(found.pitch_up, truth.pitch_up, 1e-12);
   EXPECT_NEAR(found.roll_right, truth.roll_right, 1e-12);

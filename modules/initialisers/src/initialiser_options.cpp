@@ -1,16 +1,12 @@
 #include "oneac/initialisers/initialiser_options.h"
 
+#include "oneac/base/check_bounds.h"
 #include "oneac/base/parameter_table.h"
-
-#include <stdexcept>
 
 namespace oneac {
 
 void InitialiserOptions::validate() const {
-  if (estimator != "default" && estimator != "consensus" && estimator != "gc_ransac") {
-    throw std::invalid_argument("estimator = " + estimator +
-                                ", must be default, consensus or gc_ransac");
-  }
+  check_bounds("", *this);
   consensus.validate();
   gc_ransac.validate();
 }

@@ -3,13 +3,13 @@
 #include "oneac/base/error.h"
 #include "oneac/initialisers/yaml_parameters.h"
 #include "oneac/robust/degeneracy.h"
+#include "oneac/robust/finite_acs.h"
 
 #include <mrpt/containers/yaml.h>
 
 #include <algorithm>
 #include <cctype>
 #include <deque>
-#include <iterator>
 #include <stdexcept>
 #include <utility>
 
@@ -30,7 +30,7 @@ RobustResult gc_ransac_with_degeneracies(const InitialiserInput& input, const So
   const DegeneracyBounds bounds{threshold, options.consensus.standing_px / input.focal_px,
                                 input.R_level_cam, input.prior};
   if (!input.acs.empty()) {
-    if (auto stood = standing(input.acs, bounds)) return *stood;
+    if (auto stood = find_standing(input.acs, bounds)) return *stood;
   }
   RobustResult result = gc_ransac(input.acs, input.R_level_cam, input.focal_px, solver, input.seed,
                                   options.gc_ransac);
@@ -43,7 +43,7 @@ RobustResult gc_ransac_with_degeneracies(const InitialiserInput& input, const So
     return result;
   }
   result.motion = decision.evidence;
-  settle_one_plane(input.acs, input.R_level_cam, threshold, result);
+  resolve_one_plane(input.acs, input.R_level_cam, threshold, result);
   return result;
 }
 
@@ -78,15 +78,6 @@ const std::deque<Method>& methods() {
   return kMethods;
 }
 
-/// Inlier flags of the finite correspondences, put back in the places of all.
-std::vector<bool> spread(const std::vector<bool>& of_finite, AcSpan acs) {
-  std::vector<bool> all(acs.size(), false);
-  for (std::size_t i = 0, k = 0; i < acs.size(); ++i) {
-    if (acs[i].is_finite()) all[i] = of_finite[k++];
-  }
-  return all;
-}
-
 }  // namespace
 
 std::vector<std::string> MethodInitialiser::estimators() const {
@@ -96,6 +87,9 @@ std::vector<std::string> MethodInitialiser::estimators() const {
   if (solver != nullptr) names.emplace_back(kGcRansac);
   return names;
 }
+
+MethodInitialiser::MethodInitialiser(const Method& method)
+    : method_(&method), in_gc_ransac_(MethodInitialiser::estimators().front() == kGcRansac) {}
 
 void MethodInitialiser::configure(const mrpt::containers::yaml& parameters) {
   InitialiserOptions options;
@@ -112,31 +106,23 @@ void MethodInitialiser::configure(const mrpt::containers::yaml& parameters) {
     throw InputError(name(), error.what(), "correct the value");
   }
   options_ = options;
+  in_gc_ransac_ =
+      (options.estimator == "default" ? estimators().front() : options.estimator) == kGcRansac;
 }
 
 InitialiserResult MethodInitialiser::estimate(const InitialiserInput& input) const {
-  InitialiserResult result;
-  if (std::all_of(input.acs.begin(), input.acs.end(),
-                  [](const AffineCorrespondence& ac) { return ac.is_finite(); })) {
-    result = estimate_finite(input);
-  } else {
-    std::vector<AffineCorrespondence> finite;
-    std::copy_if(input.acs.begin(), input.acs.end(), std::back_inserter(finite),
-                 [](const AffineCorrespondence& ac) { return ac.is_finite(); });
-    InitialiserInput clean = input;
-    clean.acs = finite;
-    result = estimate_finite(clean);
-    result.inliers = spread(result.inliers, input.acs);
-  }
+  const FiniteAcs finite(input.acs);
+  InitialiserInput clean = input;
+  clean.acs = finite.acs();
+  InitialiserResult result = estimate_finite(clean);
+  result.inliers = finite.spread(std::move(result.inliers));
   MRPT_LOG_DEBUG_FMT("%s: %s, %zu of %zu correspondences agree", name().c_str(),
                      to_string(result.status), result.inlier_count, input.acs.size());
   return result;
 }
 
 InitialiserResult MethodInitialiser::estimate_finite(const InitialiserInput& input) const {
-  const std::string estimator =
-      options_.estimator == "default" ? estimators().front() : options_.estimator;
-  if (estimator == kGcRansac) return gc_ransac_with_degeneracies(input, *method_->solver, options_);
+  if (in_gc_ransac_) return gc_ransac_with_degeneracies(input, *method_->solver, options_);
   ConsensusOptions consensus = options_.consensus;
   if (method_->solver != nullptr) consensus.pool = SolverPool::only(*method_->solver);
   return one_ac_consensus(input.acs, input.R_level_cam, input.focal_px, consensus, input.prior);

@@ -24,7 +24,7 @@ struct Method {
 class MethodInitialiser : public RelativePoseInitialiser {
  public:
   /// @pre the method outlives the object
-  explicit MethodInitialiser(const Method& method) : method_(&method) {}
+  explicit MethodInitialiser(const Method& method);
 
   [[nodiscard]] const mrpt::rtti::TRuntimeClassId* GetRuntimeClass() const override {
     return &method_->id;
@@ -42,6 +42,7 @@ class MethodInitialiser : public RelativePoseInitialiser {
 
   const Method* method_;
   InitialiserOptions options_;
+  bool in_gc_ransac_ = false;  ///< the estimator that options and method come to
 };
 
 /// Tells MRPT's class factory about a class for each method; harmless when repeated.

@@ -3,6 +3,7 @@
 #include "window_adjustment.h"
 #include "window_problem.h"
 
+#include "oneac/base/check_bounds.h"
 #include "oneac/base/require.h"
 
 #include <ceres/solver.h>
@@ -48,18 +49,7 @@ WindowRefineResult adjust_with_ceres(SlidingWindow& window, const WindowRefineOp
 }  // namespace
 
 void WindowRefineOptions::validate() const {
-  const auto positive = [](const std::string& field, double value) {
-    require(value > 0.0 && std::isfinite(value), "window." + field, value, "positive and finite");
-  };
-  positive("point_noise_px", point_noise_px);
-  positive("affine_noise", affine_noise);
-  positive("loss_sigmas", loss_sigmas);
-  positive("affine_gate_chi2", affine_gate_chi2);
-  positive("suspension_deg", suspension_deg);
-  positive("travel_elevation_deg", travel_elevation_deg);
-  require(solver == "fast" || solver == "ceres" || solver == "ceres+affine", "window.solver",
-          solver, "fast, ceres or ceres+affine");
-  require(max_iterations >= 1, "window.max_iterations", max_iterations, "at least 1");
+  check_bounds("window", *this);
 }
 
 WindowRefineResult refine_window(SlidingWindow& window, const WindowRefineOptions& options) {

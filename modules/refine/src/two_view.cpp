@@ -3,6 +3,7 @@
 #include "epipolar_costs.h"
 #include "two_view_information.h"
 
+#include "oneac/base/check_bounds.h"
 #include "oneac/base/require.h"
 #include "oneac/geometry/essential.h"
 
@@ -164,16 +165,7 @@ const char* to_string(RefineStatus status) {
 }
 
 void RefineOptions::validate() const {
-  const auto positive = [](const std::string& field, double value) {
-    require(value > 0.0 && std::isfinite(value), "refine." + field, value, "positive and finite");
-  };
-  positive("point_noise_px", point_noise_px);
-  positive("affine_noise", affine_noise);
-  positive("loss_sigmas", loss_sigmas);
-  require(affine_terms_below >= 0, "refine.affine_terms_below", affine_terms_below, "at least 0");
-  require(affine_gate_sigmas >= 0.0, "refine.affine_gate_sigmas", affine_gate_sigmas, "at least 0");
-  require(max_iterations >= 1, "refine.max_iterations", max_iterations, "at least 1");
-  require(min_inliers >= 5, "refine.min_inliers", min_inliers, "at least 5");
+  check_bounds("refine", *this);
 }
 
 RefineResult refine_two_view(const std::vector<AffineCorrespondence>& acs,

@@ -71,7 +71,7 @@ WindowRefineResult adjust_points(SlidingWindow& window, const WindowRefineOption
     WindowState candidate = step ? equations.moved(state, *step) : WindowState{};
     const auto next = step ? equations.cost(candidate) : std::nullopt;
     const double gain = next ? (cost - *next) / step->decrease : 0.0;
-    const bool settled = next && std::abs(cost - *next) <= function_tolerance * cost;
+    const bool converged = next && std::abs(cost - *next) <= function_tolerance * cost;
     if (gain > kWorthwhile) {
       state = std::move(candidate);
       cost = *next;
@@ -79,7 +79,7 @@ WindowRefineResult adjust_points(SlidingWindow& window, const WindowRefineOption
     } else {
       trust.reject();
     }
-    if (settled) break;
+    if (converged) break;
     if (gain > kWorthwhile) equations.linearise(state);
   }
   result.final_cost = cost;

@@ -105,8 +105,12 @@ TEST(RefineOptions, NamesTheFieldThatIsOutOfBounds) {
 TEST(RefineOptions, DescribesEachOptionOnce) {
   struct Names {
     std::multiset<std::string>* seen;
-    void operator()(const char* key, double&, const char*, const char*) const { seen->insert(key); }
-    void operator()(const char* key, int&, const char*, const char*) const { seen->insert(key); }
+    void operator()(const char* key, double&, const char*, const char*, Bound) const {
+      seen->insert(key);
+    }
+    void operator()(const char* key, int&, const char*, const char*, Bound) const {
+      seen->insert(key);
+    }
   };
   std::multiset<std::string> seen;
   RefineOptions options;

@@ -41,7 +41,7 @@ Decades span_of(const std::vector<Sample>& samples) {
 }
 
 PlotSeries curve_of(const Sample& sample, const Decades& span) {
-  PlotSeries curve{sample.label, {}, {}, Pen::line};
+  PlotSeries curve{sample.label, {}, {}, Pen::kLine};
   const std::vector<double> decades = decades_of(sample.values);
   const double count = static_cast<double>(sample.values.size());
   for (int i = 0; i <= kSamples && count > 0.0; ++i) {
@@ -62,7 +62,7 @@ bool lie_on_each_other(const PlotSeries& a, const PlotSeries& b, double toleranc
 
 Plot cdf_plot(const std::string& title, const std::string& x_label,
               const std::vector<Sample>& samples) {
-  Plot plot{title, x_label, "share of the estimates", {}, true, Axes::decades};
+  Plot plot{title, x_label, "share of the estimates", {}, true, Axes::kDecades};
   const Decades span = span_of(samples);
   for (const Sample& sample : samples) plot.series.push_back(curve_of(sample, span));
   return plot;

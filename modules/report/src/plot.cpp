@@ -77,7 +77,7 @@ std::string marks_svg(const Stroke& stroke, Pen pen, std::size_t number) {
 }
 
 std::string line_svg(const Stroke& stroke, const PlotSeries& series, std::size_t number) {
-  if (stroke.size() < 2) return marks_svg(stroke, Pen::dots, number);
+  if (stroke.size() < 2) return marks_svg(stroke, Pen::kDots, number);
   std::string points;
   for (const Spot& spot : stroke) {
     points += (points.empty() ? "" : " ") + place(spot.u) + "," + place(spot.v);
@@ -90,13 +90,13 @@ std::string series_svg(const PlotSeries& series, std::size_t number, const Canva
                        bool plan) {
   std::string svg;
   const std::vector<Stroke> strokes = strokes_of(series, canvas, plan);
-  const bool has_line = series.pen == Pen::line || series.pen == Pen::markers;
+  const bool has_line = series.pen == Pen::kLine || series.pen == Pen::kMarkers;
   for (const Stroke& stroke : strokes) {
     if (has_line) svg += line_svg(stroke, series, number);
-    if (series.pen != Pen::line) svg += marks_svg(stroke, series.pen, number);
+    if (series.pen != Pen::kLine) svg += marks_svg(stroke, series.pen, number);
   }
   if (plan && has_line && !strokes.front().empty()) {
-    svg += mark_svg(Pen::markers, strokes.front().front().u, strokes.front().front().v, number);
+    svg += mark_svg(Pen::kMarkers, strokes.front().front().u, strokes.front().front().v, number);
   }
   return svg;
 }
@@ -139,7 +139,7 @@ void make_room(Canvas& canvas, bool from_zero) {
 }
 
 std::string labels_svg(const Plot& plot, const Canvas& canvas) {
-  if (plot.axes == Axes::plan) {
+  if (plot.axes == Axes::kPlan) {
     return svg_text(kWidth - kRight, 22.0, "grid " + internal::grid_size(canvas, plot.x_label),
                     "end");
   }
@@ -153,8 +153,8 @@ std::string all_series_svg(const Plot& plot, const Canvas& canvas) {
   std::string svg;
   for (const bool rings : {true, false}) {
     for (std::size_t i = plot.series.size(); i-- > 0;) {
-      if ((plot.series[i].pen == Pen::rings) != rings) continue;
-      svg += series_svg(plot.series[i], i, canvas, plot.axes == Axes::plan);
+      if ((plot.series[i].pen == Pen::kRings) != rings) continue;
+      svg += series_svg(plot.series[i], i, canvas, plot.axes == Axes::kPlan);
     }
   }
   return svg;
@@ -171,13 +171,13 @@ Drawing drawing_of(const Plot& plot) {
   const internal::Legend legend = internal::legend_of(plot);
   canvas.top = legend.bottom;
   canvas.height =
-      plot.axes == Axes::plan && !canvas.x.empty() ? internal::kPlanHeight : plot.height;
+      plot.axes == Axes::kPlan && !canvas.x.empty() ? internal::kPlanHeight : plot.height;
   std::string svg = svg_text(kLeft, 22.0, plot.title, "start", "title");
   if (!plot.subtitle.empty()) svg += svg_text(kLeft, 39.0, plot.subtitle, "start");
   if (canvas.x.empty()) {
     return {svg + svg_text(kLeft, canvas.top + 20.0, "no values", "start"), canvas.height};
   }
-  if (plot.axes == Axes::plan) {
+  if (plot.axes == Axes::kPlan) {
     make_square(canvas);
   } else {
     make_room(canvas, plot.from_zero);

@@ -89,11 +89,11 @@ Range padded(Range range) {
 }
 
 std::string grid_svg(const Canvas& canvas, Axes axes) {
-  const bool plan = axes == Axes::plan;
+  const bool plan = axes == Axes::kPlan;
   const double step_x = plan ? plan_step(canvas) : tick_step(canvas.x.size(), kTicksX);
   const double step_y = plan ? step_x : tick_step(canvas.y.size(), kTicksY);
   std::string svg;
-  if (axes == Axes::decades) {
+  if (axes == Axes::kDecades) {
     svg = decades_svg(canvas);
   } else {
     each_tick(canvas.x, step_x,
@@ -114,11 +114,11 @@ std::string grid_size(const Canvas& canvas, const std::string& unit) {
 }
 
 std::string mark_svg(Pen pen, double u, double v, std::size_t number) {
-  const std::string style = "\" class=\"" + std::string(pen == Pen::rings ? "ring " : "dot ") +
+  const std::string style = "\" class=\"" + std::string(pen == Pen::kRings ? "ring " : "dot ") +
                             series_class(number) + "\"/>\n";
-  const std::size_t shape = pen == Pen::markers ? number % kShapes : 0;
+  const std::size_t shape = pen == Pen::kMarkers ? number % kShapes : 0;
   if (shape == 0) {
-    const double r = pen == Pen::markers ? kMarker : pen == Pen::rings ? kRing : kDot;
+    const double r = pen == Pen::kMarkers ? kMarker : pen == Pen::kRings ? kRing : kDot;
     return "<circle cx=\"" + place(u) + "\" cy=\"" + place(v) + "\" r=\"" + place(r) + style;
   }
   using Corners = std::array<std::array<double, 2>, 4>;  // square, triangle, diamond
@@ -142,9 +142,9 @@ Legend legend_of(const Plot& plot) {
     const PlotSeries& series = plot.series[i];
     const double width = kSign + 5.0 + kLetter * letters(series.label);
     if (u > kLeft && u + width > kWidth - kRight) u = kLeft, v += kRow;
-    const bool has_line = series.pen == Pen::line || series.pen == Pen::markers;
+    const bool has_line = series.pen == Pen::kLine || series.pen == Pen::kMarkers;
     if (has_line) legend.svg += line("curve " + series_class(i), u, v, u + kSign, v);
-    if (series.pen != Pen::line) legend.svg += mark_svg(series.pen, u + 0.5 * kSign, v, i);
+    if (series.pen != Pen::kLine) legend.svg += mark_svg(series.pen, u + 0.5 * kSign, v, i);
     legend.svg += svg_text(u + kSign + 5.0, v + 4.0, series.label, "start");
     u += width + kGap;
   }

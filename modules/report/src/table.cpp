@@ -6,9 +6,9 @@ namespace oneac {
 namespace {
 
 std::string td(const Cell& cell) {
-  const char* const open = cell.mark == Cell::Mark::none   ? "<td>"
-                           : cell.mark == Cell::Mark::best ? "<td class=\"best\">"
-                                                           : "<td class=\"bad\">";
+  const char* const open = cell.mark == Cell::Mark::kNone   ? "<td>"
+                           : cell.mark == Cell::Mark::kBest ? "<td class=\"best\">"
+                                                            : "<td class=\"bad\">";
   return open + html_escaped(cell.text) + "</td>";
 }
 
@@ -46,7 +46,7 @@ std::string table_md(const Table& table) {
   for (const std::vector<Cell>& row : table.rows) {
     text += "|";
     for (const Cell& cell : row) {
-      const char* const star = cell.mark == Cell::Mark::none || cell.text.empty() ? "" : "**";
+      const char* const star = cell.mark == Cell::Mark::kNone || cell.text.empty() ? "" : "**";
       text += " " + std::string(star) + cell.text + star + " |";
     }
     text += "\n";

@@ -79,7 +79,7 @@ TEST(PlotSvg, DrawsConstantsAndSinglePoints) {
 }
 
 TEST(PlotSvg, KeepsTheExtremesOfALongDrive) {
-  PlotSeries series{"a", {}, {}, Pen::line};
+  PlotSeries series{"a", {}, {}, Pen::kLine};
   for (int i = 0; i < 100000; ++i) {
     series.x.push_back(i);
     series.y.push_back(i == 54321 ? 9.0 : 1.0);
@@ -97,7 +97,7 @@ TEST(PlotSvg, RefusesSeriesThatDoNotFit) {
 
 Plot plan(std::vector<PlotSeries> series) {
   Plot plot{"t", "m", "", std::move(series)};
-  plot.axes = Axes::plan;
+  plot.axes = Axes::kPlan;
   return plot;
 }
 
@@ -119,7 +119,7 @@ TEST(PlanSvg, DrawsAVehicleThatNeverMoved) {
 
 TEST(PlanSvg, KeepsKeyframesBelowTheLines) {
   const std::string svg =
-      plot_svg(plan({{"way", {0, 1}, {0, 1}}, {"keyframes", {0, 1}, {0, 1}, Pen::rings}}));
+      plot_svg(plan({{"way", {0, 1}, {0, 1}}, {"keyframes", {0, 1}, {0, 1}, Pen::kRings}}));
   const auto ring = svg.find("class=\"ring c1"), way = svg.find("<polyline");
   ASSERT_NE(ring, std::string::npos);
   EXPECT_LT(ring, way);
@@ -129,7 +129,7 @@ TEST(PlotDocument, StandsAloneWithAMarkerPerPoint) {
   Plot plot{"Title", "x [px]", "y [°]", {}, true};
   plot.subtitle = "Subtitle";
   for (const char* label : {"A < B", "C & D"}) {
-    plot.series.push_back({label, {-1.0, 0.0, 1.0}, {0.0, 1.0, 2.0}, Pen::markers});
+    plot.series.push_back({label, {-1.0, 0.0, 1.0}, {0.0, 1.0, 2.0}, Pen::kMarkers});
   }
   const std::string svg = plot_document(plot);
   EXPECT_EQ(svg.rfind("<svg xmlns=", 0), 0U);

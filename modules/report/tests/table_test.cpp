@@ -6,7 +6,7 @@ namespace oneac {
 namespace {
 
 Table some_table() {
-  return {"caption", {"", "a"}, {{{"x < y"}, {"1", Cell::Mark::best}}, {{"z"}, {"2"}}}};
+  return {"caption", {"", "a"}, {{{"x < y"}, {"1", Cell::Mark::kBest}}, {{"z"}, {"2"}}}};
 }
 
 TEST(Table, EscapesAndMarksInHtml) {

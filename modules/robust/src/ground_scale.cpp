@@ -1,5 +1,6 @@
 #include "oneac/robust/ground_scale.h"
 
+#include "oneac/base/check_bounds.h"
 #include "oneac/base/require.h"
 #include "oneac/geometry/angles.h"
 #include "oneac/geometry/homography.h"
@@ -15,7 +16,7 @@ namespace oneac {
 namespace {
 
 constexpr double kPlaneCut = 2.5;     // [bandwidths] scale of the loss and bound of the support
-constexpr int kPlaneIterations = 10;  // IRLS; the weights settle after four to six
+constexpr int kPlaneIterations = 10;  // IRLS; the weights converge after four to six
 // Smallest height of the camera above a ground point [baselines]: a step of more than 20 camera
 // heights, 30 m from one frame to the next, is not driving.
 constexpr double kSmallestHeight = 0.05;
@@ -144,14 +145,7 @@ RoadPlane fit_plane(const std::vector<Candidate>& candidates, double height,
 }  // namespace
 
 void GroundScaleOptions::validate() const {
-  require(max_distance > 0.0, "ground_scale.max_distance", max_distance, "positive");
-  require(max_side > 0.0, "ground_scale.max_side", max_side, "positive");
-  require(affine_tolerance > 0.0, "ground_scale.affine_tolerance", affine_tolerance, "positive");
-  require(bandwidth > 0.0, "ground_scale.bandwidth", bandwidth, "positive");
-  require(min_support >= 1, "ground_scale.min_support", min_support, "at least 1");
-  require(max_uncertainty > 0.0, "ground_scale.max_uncertainty", max_uncertainty, "positive");
-  require(plane_tilt_deg > 0.0, "ground_scale.plane_tilt_deg", plane_tilt_deg, "positive");
-  require(cross_fall_deg > 0.0, "ground_scale.cross_fall_deg", cross_fall_deg, "positive");
+  check_bounds("ground_scale", *this);
 }
 
 std::optional<GroundScale> ground_scale(AcSpan acs, const std::vector<bool>& inliers,

@@ -2,7 +2,7 @@
 
 #include "oneac/geometry/angular_errors.h"
 #include "oneac/geometry/homography.h"
-#include "oneac/geometry/leveling.h"
+#include "oneac/geometry/levelling.h"
 #include "oneac/solvers/registry.h"
 #include "oneac/test_support/scenes.h"
 
@@ -102,7 +102,7 @@ TEST_P(GcRansacMethod, FindsTheMotionAmongFortyPercentOutliers) {
 
 TEST_P(GcRansacMethod, WorksWithTheCamerasTilt) {
   SceneGenerator scene(32);
-  const Eigen::Matrix3d L = leveling_rotation({8.0 * kDegree, 1.0 * kDegree});
+  const Eigen::Matrix3d L = levelling_rotation({8.0 * kDegree, 1.0 * kDegree});
   const RelativePose T = motion_for(GetParam(), scene);
   std::vector<AffineCorrespondence> acs;
   for (const auto& ac : scene_for(GetParam(), scene, T, 20)) {

@@ -1,6 +1,6 @@
 #include "oneac/robust/ground_scale.h"
 
-#include "oneac/geometry/leveling.h"
+#include "oneac/geometry/levelling.h"
 #include "oneac/test_support/scenes.h"
 
 #include <gtest/gtest.h>
@@ -63,7 +63,7 @@ TEST(GroundScale, GivesTheStepInCameraHeights) {
 TEST(GroundScale, WorksForATiltedCamera) {
   SceneGenerator scene(32);
   const RelativePose level_motion = forward(0.8);
-  const Eigen::Matrix3d L = leveling_rotation({8.0 * kDegree, 0.0});
+  const Eigen::Matrix3d L = levelling_rotation({8.0 * kDegree, 0.0});
   auto acs = road_and_walls(scene, level_motion, 80, 80, 0.3 * kSigma);
   for (auto& ac : acs) ac = *rotate_views(ac, L.transpose(), L.transpose());
   const auto scale = ground_scale(acs, std::vector<bool>(acs.size(), true),
@@ -76,7 +76,7 @@ TEST(GroundScale, WorksForATiltedCamera) {
 std::optional<GroundScale> seen_with(const Tilt& tilt, unsigned seed) {
   SceneGenerator scene(seed);
   const RelativePose level_motion = forward(0.8);
-  const Eigen::Matrix3d L = leveling_rotation(tilt);
+  const Eigen::Matrix3d L = levelling_rotation(tilt);
   auto acs = road_and_walls(scene, level_motion, 120, 0, 0.1 * kSigma);
   for (auto& ac : acs) ac = *rotate_views(ac, L.transpose(), L.transpose());
   return ground_scale(acs, std::vector<bool>(acs.size(), true),

@@ -1,7 +1,7 @@
 #include "oneac/robust/motion_evidence.h"
 
 #include "oneac/geometry/homography.h"
-#include "oneac/geometry/leveling.h"
+#include "oneac/geometry/levelling.h"
 #include "oneac/robust/one_ac_consensus.h"
 #include "oneac/test_support/scenes.h"
 
@@ -176,7 +176,7 @@ TEST(MotionEvidence, TheGrowthOfPatchesIsPartOfIt) {
 
 TEST(MotionEvidence, ATiltedCameraSeesTheSame) {
   SceneGenerator scene(11);
-  const Eigen::Matrix3d L = leveling_rotation({0.14, 0.02});
+  const Eigen::Matrix3d L = levelling_rotation({0.14, 0.02});
   const RelativePose T = unlevel(ahead(0.05), L);
   Acs acs;
   add(acs, scene, T, {L.transpose() * kFar.n, kFar.d}, {-0.6, 0.6, -0.3, 0.08}, 300);

@@ -2,7 +2,7 @@
 
 #include "oneac/geometry/angular_errors.h"
 #include "oneac/geometry/homography.h"
-#include "oneac/geometry/leveling.h"
+#include "oneac/geometry/levelling.h"
 #include "oneac/robust/pitch_sweep.h"
 #include "oneac/test_support/scenes.h"
 
@@ -98,7 +98,7 @@ TEST(OneAcConsensus, TakesNoWrongBasinThatAWideBoundForgives) {
 
 TEST(OneAcConsensus, RemovesTheCamerasTiltAndPutsItBack) {
   SceneGenerator scene(23);
-  const Eigen::Matrix3d L = leveling_rotation({8.0 * kDegree, 1.0 * kDegree});
+  const Eigen::Matrix3d L = levelling_rotation({8.0 * kDegree, 1.0 * kDegree});
   for (int trial = 0; trial < 5; ++trial) {
     const RelativePose T = unlevel(scene.planar_motion(), L);
     expect_close(one_ac_consensus(street(scene, T), L, kFocal, {}), T, trial);

@@ -63,7 +63,7 @@ TEST(Conclude, CountsThoseWithinTheThresholdAndTheirCost) {
   T.t.normalize();
   const auto acs = mixed_scene(scene, T);
   RobustResult result;
-  conclude(T, acs, kThreshold, result);
+  complete_result(T, acs, kThreshold, result);
   ASSERT_EQ(result.inliers.size(), acs.size());
   const Eigen::Matrix3d E = essential_matrix(result.pose);
   std::size_t inliers = 0;

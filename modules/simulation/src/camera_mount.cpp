@@ -2,7 +2,7 @@
 
 #include "oneac/geometry/angles.h"
 #include "oneac/geometry/camera_frame.h"
-#include "oneac/geometry/leveling.h"
+#include "oneac/geometry/levelling.h"
 
 namespace oneac::simulation {
 namespace {}  // namespace
@@ -22,7 +22,7 @@ Eigen::Isometry3d mount_of(const SimulationOptions& options) {
   Eigen::Isometry3d T = CameraFrame::forward_looking_mount();
   T.linear() =
       yaw.toRotationMatrix() * T.linear() *
-      leveling_rotation({options.camera_tilt_deg * kDegree, options.camera_roll_deg * kDegree});
+      levelling_rotation({options.camera_tilt_deg * kDegree, options.camera_roll_deg * kDegree});
   T.translation() << options.camera_forward_m, options.camera_left_m, options.camera_height_m;
   return T;
 }

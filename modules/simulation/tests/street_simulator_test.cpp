@@ -1,6 +1,6 @@
 #include "oneac/simulation/street_simulator.h"
 
-#include "oneac/geometry/leveling.h"
+#include "oneac/geometry/levelling.h"
 
 #include <gtest/gtest.h>
 

@@ -8,7 +8,7 @@
 namespace oneac {
 namespace {
 
-constexpr std::array<StudyMetric, 2> kPose = {StudyMetric::rotation, StudyMetric::translation};
+constexpr std::array<StudyMetric, 2> kPose = {StudyMetric::kRotation, StudyMetric::kTranslation};
 // "Below approx. 1.0 degree": the sweep's points up to this tilt must be won.
 constexpr double kAboutOneDegree = 0.9;
 
@@ -46,7 +46,7 @@ struct CrossingFinder {
                      "), mean ratio " + significant_text(comparison.best_ratio, 2) + " … " +
                      significant_text(comparison.worst_ratio, 2);
   const StudySweep sweep = result.experiment->sweep;
-  if (sweep != StudySweep::wall_angle && !comparison.won_all()) {
+  if (sweep != StudySweep::kWallAngle && !comparison.won_all()) {
     text += "; mean " + where(comparison.lost_from, sweep) + ", median " +
             where(comparison.lost_from_median, sweep);
   }
@@ -58,7 +58,7 @@ template <class Judge>
 void add_findings(const ExperimentResult* result, Claim& claim, Judge&& judge) {
   if (result == nullptr) return;
   const StudyMethod ours = result->experiment->methods.front();
-  const bool skip_first = result->experiment->sweep == StudySweep::noise;
+  const bool skip_first = result->experiment->sweep == StudySweep::kNoise;
   for (const StudyMetric metric : kPose) {
     for (const StudyMethod theirs :
          {study_method("homography_4pc"), study_method("homography_2ac")}) {
@@ -105,7 +105,7 @@ void add_findings(const ExperimentResult* result, Claim& claim, Judge&& judge) {
   for (const StudyMetric metric : kPose) {
     const Comparison comparison = compare(*result, result->experiment->methods.front(),
                                           study_method("homography_4pc"), metric, true);
-    text += metric == StudyMetric::rotation ? " in rotation " : ", in translation ";
+    text += metric == StudyMetric::kRotation ? " in rotation " : ", in translation ";
     if (!comparison.lost_from) {
       text += "nowhere up to 1 px (ratio " + fixed_text(comparison.last_ratio, 2) + " there)";
     } else {

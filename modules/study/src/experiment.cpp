@@ -22,39 +22,39 @@ using S = StudySweep;
   return {
       {"forward_ground",
        "Forward motion, ground",
-       M::forward,
-       P::ground,
-       S::noise,
+       M::kForward,
+       P::kGround,
+       S::kNoise,
        {study_method("relpose_1ac_ground"), pc4, ac2}},
       {"forward_front",
        "Forward motion, frontal wall",
-       M::forward,
-       P::front_wall,
-       S::noise,
+       M::kForward,
+       P::kFrontWall,
+       S::kNoise,
        {study_method("relpose_1ac_front_wall"), pc4, ac2}},
       {"forward_wall",
        "Forward motion, turned wall",
-       M::forward,
-       P::any_wall,
-       S::wall_angle,
+       M::kForward,
+       P::kAnyWall,
+       S::kWallAngle,
        {study_method("relpose_1ac_wall"), pc4, ac2}},
       {"sideways_wall",
        "Sideways motion, turned wall",
-       M::sideways,
-       P::any_wall,
-       S::wall_angle,
+       M::kSideways,
+       P::kAnyWall,
+       S::kWallAngle,
        {study_method("relpose_1ac_wall"), pc4, ac2}},
       {"tilt_ground",
        "Forward motion, ground, tilted second camera",
-       M::forward,
-       P::ground,
-       S::tilt,
+       M::kForward,
+       P::kGround,
+       S::kTilt,
        {study_method("relpose_1ac_ground"), pc4, ac2}},
       {"tilt_front",
        "Forward motion, frontal wall, tilted second camera",
-       M::forward,
-       P::front_wall,
-       S::tilt,
+       M::kForward,
+       P::kFrontWall,
+       S::kTilt,
        {study_method("relpose_1ac_front_wall"), pc4, ac2}},
   };
 }
@@ -64,27 +64,27 @@ using S = StudySweep;
   return {
       {"sideways_ground",
        "Sideways motion, ground",
-       M::sideways,
-       P::ground,
-       S::noise,
+       M::kSideways,
+       P::kGround,
+       S::kNoise,
        {study_method("relpose_1ac_ground"), pc4, ac2}},
       {"sideways_side",
        "Sideways motion, side wall",
-       M::sideways,
-       P::side_wall,
-       S::noise,
+       M::kSideways,
+       P::kSideWall,
+       S::kNoise,
        {study_method("relpose_1ac_side_wall"), pc4, ac2}},
       {"rapid_ground",
        "Rapid against optimal, forward motion, ground",
-       M::forward,
-       P::ground,
-       S::noise,
+       M::kForward,
+       P::kGround,
+       S::kNoise,
        {study_method("relpose_1ac_ground"), study_method("relpose_1ac_ground_rapid")}},
       {"rapid_front",
        "Rapid against optimal, forward motion, frontal wall",
-       M::forward,
-       P::front_wall,
-       S::noise,
+       M::kForward,
+       P::kFrontWall,
+       S::kNoise,
        {study_method("relpose_1ac_front_wall"), study_method("relpose_1ac_front_wall_rapid")}},
   };
 }
@@ -107,7 +107,7 @@ const std::vector<Experiment>& experiments() {
 }
 
 const std::vector<Figure>& figures() {
-  const auto rotation = StudyMetric::rotation, translation = StudyMetric::translation;
+  const auto rotation = StudyMetric::kRotation, translation = StudyMetric::kTranslation;
   static const std::vector<Figure> kFigures = {
       {"a", "forward_ground", rotation},
       {"b", "forward_ground", translation},
@@ -125,8 +125,8 @@ const std::vector<Figure>& figures() {
       {"s2", "sideways_ground", translation},
       {"s3", "sideways_side", rotation},
       {"s4", "sideways_side", translation},
-      {"s5", "forward_wall", StudyMetric::normal},
-      {"s6", "sideways_wall", StudyMetric::normal},
+      {"s5", "forward_wall", StudyMetric::kNormal},
+      {"s6", "sideways_wall", StudyMetric::kNormal},
       {"s7", "rapid_ground", rotation},
       {"s8", "rapid_ground", translation},
       {"s9", "rapid_front", rotation},
@@ -143,28 +143,28 @@ const Experiment& experiment_named(std::string_view name) {
 }
 
 std::vector<double> sweep_values(StudySweep sweep) {
-  if (sweep == S::wall_angle) return evenly(-80.0, 10.0, 17);
+  if (sweep == S::kWallAngle) return evenly(-80.0, 10.0, 17);
   return evenly(0.0, 0.1, 11);
 }
 
 std::string_view sweep_column(StudySweep sweep) {
-  if (sweep == S::wall_angle) return "wall_angle_deg";
-  return sweep == S::tilt ? "tilt_deg" : "noise_px";
+  if (sweep == S::kWallAngle) return "wall_angle_deg";
+  return sweep == S::kTilt ? "tilt_deg" : "noise_px";
 }
 
 std::string_view sweep_label(StudySweep sweep) {
-  if (sweep == S::wall_angle) return "angle of the wall about the vertical [°]";
-  if (sweep == S::tilt) return "tilt of the second camera about its X axis [°]";
+  if (sweep == S::kWallAngle) return "angle of the wall about the vertical [°]";
+  if (sweep == S::kTilt) return "tilt of the second camera about its X axis [°]";
   return "point noise [px], with affine noise of 5° and 5 % per px";
 }
 
 std::string_view sweep_unit(StudySweep sweep) {
-  return sweep == S::noise ? "px" : "°";
+  return sweep == S::kNoise ? "px" : "°";
 }
 
 std::string_view metric_name(StudyMetric metric) {
-  if (metric == StudyMetric::normal) return "normal";
-  return metric == StudyMetric::rotation ? "rotation" : "translation";
+  if (metric == StudyMetric::kNormal) return "normal";
+  return metric == StudyMetric::kRotation ? "rotation" : "translation";
 }
 
 }  // namespace oneac

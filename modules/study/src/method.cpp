@@ -14,7 +14,7 @@ StudyMethod study_method(std::string_view name) {
 
 PoseSet candidates_of(StudyMethod method, AcSpan correspondences, DataUse use) {
   if (correspondences.size() < method->sample) return {};
-  const std::size_t used = use == DataUse::all ? correspondences.size() : method->sample;
+  const std::size_t used = use == DataUse::kAll ? correspondences.size() : method->sample;
   return method->run.least_squares(AcSpan(correspondences.begin(), used));
 }
 

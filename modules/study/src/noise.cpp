@@ -17,12 +17,12 @@ namespace {
 }
 
 [[nodiscard]] double error_of(double level, NoiseShape shape, TrialRandom& random) {
-  if (shape == NoiseShape::normal) return random.normal(level);
-  return shape == NoiseShape::fixed ? level * random.sign() : random.uniform(-level, level);
+  if (shape == NoiseShape::kNormal) return random.normal(level);
+  return shape == NoiseShape::kFixed ? level * random.sign() : random.uniform(-level, level);
 }
 
 [[nodiscard]] Eigen::Vector2d point_error(double level, NoiseShape shape, TrialRandom& random) {
-  if (shape == NoiseShape::normal) {
+  if (shape == NoiseShape::kNormal) {
     const double u = random.normal(level);
     return {u, random.normal(level)};
   }
@@ -54,7 +54,7 @@ Eigen::Matrix2d noisy_affinity(const Eigen::Matrix2d& A, const NoiseLevel& level
   const double error = error_of(angle, shape, random);
   factors.first += error;
   // The second rotation is Vᵀ: the same error on V counts the other way.
-  factors.second += shape == NoiseShape::common ? -error : error_of(angle, shape, random);
+  factors.second += shape == NoiseShape::kCommon ? -error : error_of(angle, shape, random);
   factors.large *= 1.0 + error_of(share, shape, random);
   factors.small *= 1.0 + error_of(share, shape, random);
   return factors.matrix();

@@ -27,16 +27,16 @@ constexpr std::string_view kClaimFigures[] = {"a", "c", "e", "g", "i1", "i3", "s
 const std::vector<Reading>& readings() {
   static const std::vector<Reading> kReadings = {
       {"all four correspondences for every method; affine errors up to the level",
-       NoiseShape::uniform, DataUse::all},
-      {"all four; of exactly the level", NoiseShape::fixed, DataUse::all},
-      {"all four; normal", NoiseShape::normal, DataUse::all},
-      {"all four; up to the level, one angle for U and V", NoiseShape::common, DataUse::all},
-      {"one for 1AC, two for 2AC, four for 4PC; up to the level", NoiseShape::uniform,
-       DataUse::minimal},
-      {"one, two, four; of exactly the level", NoiseShape::fixed, DataUse::minimal},
-      {"one, two, four; normal", NoiseShape::normal, DataUse::minimal},
-      {"one, two, four; up to the level, one angle for U and V", NoiseShape::common,
-       DataUse::minimal},
+       NoiseShape::kUniform, DataUse::kAll},
+      {"all four; of exactly the level", NoiseShape::kFixed, DataUse::kAll},
+      {"all four; normal", NoiseShape::kNormal, DataUse::kAll},
+      {"all four; up to the level, one angle for U and V", NoiseShape::kCommon, DataUse::kAll},
+      {"one for 1AC, two for 2AC, four for 4PC; up to the level", NoiseShape::kUniform,
+       DataUse::kMinimal},
+      {"one, two, four; of exactly the level", NoiseShape::kFixed, DataUse::kMinimal},
+      {"one, two, four; normal", NoiseShape::kNormal, DataUse::kMinimal},
+      {"one, two, four; up to the level, one angle for U and V", NoiseShape::kCommon,
+       DataUse::kMinimal},
   };
   return kReadings;
 }

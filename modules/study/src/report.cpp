@@ -20,11 +20,11 @@ constexpr int kDigits = 8;         // in the CSV: enough to draw and compare, sh
 }
 
 [[nodiscard]] std::string subtitle_of(StudySweep sweep, DataUse data_use) {
-  const std::string noise = sweep == StudySweep::noise  ? ""
-                            : sweep == StudySweep::tilt ? "; noise 1 px, 1°, 1 %"
-                                                        : "; noise 1 px, 5°, 5 %";
-  return (data_use == DataUse::all ? "every method uses the same four correspondences"
-                                   : "1AC uses one correspondence, 2AC two, 4PC four") +
+  const std::string noise = sweep == StudySweep::kNoise  ? ""
+                            : sweep == StudySweep::kTilt ? "; noise 1 px, 1°, 1 %"
+                                                         : "; noise 1 px, 5°, 5 %";
+  return (data_use == DataUse::kAll ? "every method uses the same four correspondences"
+                                    : "1AC uses one correspondence, 2AC two, 4PC four") +
          noise;
 }
 
@@ -54,7 +54,7 @@ std::string svg_of(const ExperimentResult& result, const Figure& figure, DataUse
   plot.x_label = std::string(sweep_label(result.experiment->sweep));
   plot.y_label = y_label(figure.metric);
   for (const StudyMethod method : result.experiment->methods) {
-    plot.series.push_back({std::string(method->label), {}, {}, Pen::markers});
+    plot.series.push_back({std::string(method->label), {}, {}, Pen::kMarkers});
   }
   for (const PointResult& point : result.points) {
     for (std::size_t m = 0; m < point.methods.size(); ++m) {

@@ -13,8 +13,8 @@
 namespace oneac {
 namespace {
 
-constexpr std::array<StudyMetric, 3> kMetrics = {StudyMetric::rotation, StudyMetric::translation,
-                                                 StudyMetric::normal};
+constexpr std::array<StudyMetric, 3> kMetrics = {StudyMetric::kRotation, StudyMetric::kTranslation,
+                                                 StudyMetric::kNormal};
 // A trial takes some 50 µs; more than this would take weeks.
 constexpr std::size_t kMaxTrials = 100000000;
 constexpr int kMaxThreads = 1024;

@@ -92,8 +92,8 @@ constexpr double kManyFailures = 0.001;
 [[nodiscard]] std::string means_of(const ExperimentResult& result, StudyMetric metric) {
   const Experiment& experiment = *result.experiment;
   Table table{"", {std::string(metric_name(metric)) + " error [°] at"}, {}};
-  const std::size_t every = experiment.sweep == StudySweep::wall_angle ? kEveryAngle : kEveryNoise;
-  const int decimals = experiment.sweep == StudySweep::wall_angle ? 0 : 1;
+  const std::size_t every = experiment.sweep == StudySweep::kWallAngle ? kEveryAngle : kEveryNoise;
+  const int decimals = experiment.sweep == StudySweep::kWallAngle ? 0 : 1;
   for (std::size_t i = 0; i < result.points.size(); i += every) {
     table.head.push_back(fixed_text(result.points[i].value, decimals) + " " +
                          std::string(sweep_unit(experiment.sweep)));

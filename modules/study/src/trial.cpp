@@ -15,15 +15,15 @@ namespace {
 constexpr int kMaxTries = 100000;
 
 [[nodiscard]] Eigen::Vector3d normal_at(StudySurface surface, double angle_deg) {
-  if (surface == StudySurface::ground) return Eigen::Vector3d::UnitY();
-  if (surface == StudySurface::side_wall) return Eigen::Vector3d::UnitX();
+  if (surface == StudySurface::kGround) return Eigen::Vector3d::UnitY();
+  if (surface == StudySurface::kSideWall) return Eigen::Vector3d::UnitX();
   const double angle = angle_deg * kDegree;  // 0 for a frontal wall
   return {std::sin(angle), 0.0, std::cos(angle)};
 }
 
 [[nodiscard]] NoiseLevel noise_at(StudySweep sweep, double value) {
-  if (sweep == StudySweep::noise) return {value, 5.0 * value, 5.0 * value};
-  if (sweep == StudySweep::tilt) return {1.0, 1.0, 1.0};
+  if (sweep == StudySweep::kNoise) return {value, 5.0 * value, 5.0 * value};
+  if (sweep == StudySweep::kTilt) return {1.0, 1.0, 1.0};
   return {1.0, 5.0, 5.0};
 }
 
@@ -49,13 +49,13 @@ constexpr int kMaxTries = 100000;
 StudyScene scene_at(const Experiment& experiment, double value) {
   StudyScene scene;
   // Points move against the camera: a camera that moves forward sees t_z < 0.
-  scene.T_2_1.t = experiment.motion == StudyMotion::forward
+  scene.T_2_1.t = experiment.motion == StudyMotion::kForward
                       ? Eigen::Vector3d(0.0, 0.0, -kStudyBaseline)
                       : Eigen::Vector3d(-kStudyBaseline, 0.0, 0.0);
-  const double wall_angle = experiment.sweep == StudySweep::wall_angle ? value : 0.0;
+  const double wall_angle = experiment.sweep == StudySweep::kWallAngle ? value : 0.0;
   scene.plane = {normal_at(experiment.surface, wall_angle), 1.0};
   scene.noise = noise_at(experiment.sweep, value);
-  if (experiment.sweep == StudySweep::tilt) {
+  if (experiment.sweep == StudySweep::kTilt) {
     scene.T_2_1 =
         RelativePose{pitch_rotation(value * kDegree), Eigen::Vector3d::Zero()} * scene.T_2_1;
   }
@@ -75,8 +75,8 @@ std::array<AffineCorrespondence, kStudyPoints> draw_correspondences(const StudyS
 }
 
 double TrialErrors::of(StudyMetric metric) const {
-  if (metric == StudyMetric::normal) return normal;
-  return metric == StudyMetric::rotation ? rotation : translation;
+  if (metric == StudyMetric::kNormal) return normal;
+  return metric == StudyMetric::kRotation ? rotation : translation;
 }
 
 std::optional<TrialErrors> errors_of(StudyMethod method, DataUse use, AcSpan correspondences,

@@ -9,7 +9,7 @@ namespace {
 
 /// Claims are checked on the study's own output.
 StudyResult study_of(std::vector<std::string> figures, std::size_t trials,
-                     NoiseShape shape = NoiseShape::uniform, DataUse use = DataUse::all) {
+                     NoiseShape shape = NoiseShape::kUniform, DataUse use = DataUse::kAll) {
   StudyOptions options;
   options.figures = std::move(figures);
   options.trials = trials;
@@ -46,7 +46,7 @@ ExperimentResult made_up(const std::vector<double>& ours, const std::vector<doub
 TEST(Compare, InterpolatesWhereTheLeadIsLost) {
   const auto result = made_up({0.0, 1.0, 2.0, 4.0}, {0.0, 2.0, 3.0, 3.0});
   const Comparison c = compare(result, study_method("relpose_1ac_ground"),
-                               study_method("homography_4pc"), StudyMetric::rotation, true);
+                               study_method("homography_4pc"), StudyMetric::kRotation, true);
   EXPECT_EQ(c.points, 3U);
   EXPECT_EQ(c.won, 2U);
   EXPECT_TRUE(c.won_first);
@@ -62,20 +62,20 @@ TEST(Compare, InterpolatesWhereTheLeadIsLost) {
 TEST(Compare, ADrawIsNoWinAndALeadMayLastOrNeverCome) {
   const auto draw = made_up({1.0, 1.0}, {1.0, 1.0});
   EXPECT_EQ(compare(draw, study_method("relpose_1ac_ground"), study_method("homography_2ac"),
-                    StudyMetric::rotation, false)
+                    StudyMetric::kRotation, false)
                 .won,
             0U);
   const auto lead = made_up({1.0, 1.0}, {2.0, 2.0});
   EXPECT_FALSE(compare(lead, study_method("relpose_1ac_ground"), study_method("homography_2ac"),
-                       StudyMetric::rotation, false)
+                       StudyMetric::kRotation, false)
                    .lost_from);
   const auto never = made_up({0.0, 3.0, 3.0}, {0.0, 2.0, 2.0});
   EXPECT_NEAR(*compare(never, study_method("relpose_1ac_ground"), study_method("homography_2ac"),
-                       StudyMetric::rotation, true)
+                       StudyMetric::kRotation, true)
                    .lost_from,
               0.1, 1e-12);
   EXPECT_THROW((void)compare(lead, study_method("relpose_1ac_wall"), study_method("homography_2ac"),
-                             StudyMetric::rotation, false),
+                             StudyMetric::kRotation, false),
                std::invalid_argument);
 }
 
@@ -87,7 +87,7 @@ TEST(Claims, OnTheGroundOneAcBeatsFourPointsAndTwoAcsAtEveryNoiseLevel) {
 
 TEST(Claims, OnAFrontalWallFourPointsCatchUpAtHighNoise) {
   const StudyResult result = study_of({"c", "d"}, 500);
-  for (const StudyMetric metric : {StudyMetric::rotation, StudyMetric::translation}) {
+  for (const StudyMetric metric : {StudyMetric::kRotation, StudyMetric::kTranslation}) {
     const Comparison c =
         compare(*result.find("forward_front"), study_method("relpose_1ac_front_wall"),
                 study_method("homography_4pc"), metric, true);
@@ -99,10 +99,10 @@ TEST(Claims, OnAFrontalWallFourPointsCatchUpAtHighNoise) {
 }
 
 TEST(Claims, OnAFrontalWallFourPointsOvertakeWhenErrorsAreOfExactlyTheLevel) {
-  const StudyResult result = study_of({"c", "d", "s3", "s4"}, 500, NoiseShape::fixed);
+  const StudyResult result = study_of({"c", "d", "s3", "s4"}, 500, NoiseShape::kFixed);
   const Claim claim = claim_of(result, "special_wall");
   EXPECT_TRUE(claim.holds()) << claim.finding;
-  for (const StudyMetric metric : {StudyMetric::rotation, StudyMetric::translation}) {
+  for (const StudyMetric metric : {StudyMetric::kRotation, StudyMetric::kTranslation}) {
     const Comparison c =
         compare(*result.find("forward_front"), study_method("relpose_1ac_front_wall"),
                 study_method("homography_4pc"), metric, true);
@@ -122,11 +122,11 @@ TEST(Claims, TiltIsLostWhereItEqualsTheRivalsError) {
   const StudyResult all = study_of({"i1"}, 500);
   const auto& ground = *all.find("tilt_ground");
   const Comparison c = compare(ground, study_method("relpose_1ac_ground"),
-                               study_method("homography_2ac"), StudyMetric::rotation, false);
+                               study_method("homography_2ac"), StudyMetric::kRotation, false);
   ASSERT_TRUE(c.lost_from);
   EXPECT_NEAR(*c.lost_from, 0.22, 0.06);
   EXPECT_TRUE(compare(ground, study_method("relpose_1ac_ground"), study_method("homography_4pc"),
-                      StudyMetric::rotation, false)
+                      StudyMetric::kRotation, false)
                   .won_all());
   EXPECT_FALSE(claim_of(all, "tilt").holds());
 }
@@ -136,16 +136,16 @@ TEST(Claims, TiltOnAFrontalWallIsWonInTranslation) {
   for (const StudyMethod theirs :
        {study_method("homography_4pc"), study_method("homography_2ac")}) {
     EXPECT_TRUE(compare(*result.find("tilt_front"), study_method("relpose_1ac_front_wall"), theirs,
-                        StudyMetric::translation, false)
+                        StudyMetric::kTranslation, false)
                     .won_all());
   }
 }
 
 TEST(Claims, OneCorrespondenceAgainstFourPointsDoesNotReproduceThePaper) {
-  const StudyResult result = study_of({"c", "d"}, 300, NoiseShape::uniform, DataUse::minimal);
+  const StudyResult result = study_of({"c", "d"}, 300, NoiseShape::kUniform, DataUse::kMinimal);
   const Comparison c =
       compare(*result.find("forward_front"), study_method("relpose_1ac_front_wall"),
-              study_method("homography_4pc"), StudyMetric::rotation, true);
+              study_method("homography_4pc"), StudyMetric::kRotation, true);
   EXPECT_EQ(c.won, 0U);
   EXPECT_FALSE(claim_of(result, "special_wall").holds());
 }

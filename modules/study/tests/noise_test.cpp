@@ -58,7 +58,7 @@ TEST(Noise, FactorsMultiplyBackAndAreThoseOfTheSvd) {
 
 TEST(Noise, ZeroLevelChangesNothing) {
   for (const NoiseShape shape :
-       {NoiseShape::uniform, NoiseShape::fixed, NoiseShape::normal, NoiseShape::common}) {
+       {NoiseShape::kUniform, NoiseShape::kFixed, NoiseShape::kNormal, NoiseShape::kCommon}) {
     TrialRandom random(7);
     const Eigen::Vector2d x1(0.2, 0.3);
     const AffineCorrespondence ac = noisy_correspondence(some_homography(), x1, {}, shape, random);
@@ -70,9 +70,9 @@ TEST(Noise, FixedErrorsAreExactlyTheLevelAndEitherSign) {
   TrialRandom random(11);
   int positive = 0;
   for (int i = 0; i < kDraws; ++i) {
-    const Errors e =
-        errors_between(some_affinity(),
-                       noisy_affinity(some_affinity(), {0.0, 5.0, 5.0}, NoiseShape::fixed, random));
+    const Errors e = errors_between(
+        some_affinity(),
+        noisy_affinity(some_affinity(), {0.0, 5.0, 5.0}, NoiseShape::kFixed, random));
     EXPECT_NEAR(std::abs(e.first), 5.0 * kDegree, 1e-12);
     EXPECT_NEAR(std::abs(e.second), 5.0 * kDegree, 1e-12);
     EXPECT_NEAR(std::abs(e.large), 0.05, 1e-12);
@@ -88,7 +88,7 @@ TEST(Noise, UniformErrorsFillTheLevelAndAreIndependent) {
   for (int i = 0; i < kDraws; ++i) {
     const Errors e = errors_between(
         some_affinity(),
-        noisy_affinity(some_affinity(), {0.0, 2.0, 3.0}, NoiseShape::uniform, random));
+        noisy_affinity(some_affinity(), {0.0, 2.0, 3.0}, NoiseShape::kUniform, random));
     const double share = e.first / (2.0 * kDegree);
     sum += share;
     squares += share * share;
@@ -110,11 +110,11 @@ TEST(Noise, NormalErrorsHaveTheLevelAsDeviation) {
   for (int i = 0; i < kDraws; ++i) {
     const Errors e = errors_between(
         some_affinity(),
-        noisy_affinity(some_affinity(), {0.0, 2.0, 3.0}, NoiseShape::normal, random));
+        noisy_affinity(some_affinity(), {0.0, 2.0, 3.0}, NoiseShape::kNormal, random));
     angle += e.first * e.first;
     share += e.large * e.large;
     const auto ac =
-        noisy_correspondence(some_homography(), x1, {0.5, 0.0, 0.0}, NoiseShape::normal, random);
+        noisy_correspondence(some_homography(), x1, {0.5, 0.0, 0.0}, NoiseShape::kNormal, random);
     point += (ac.x2 - exact).squaredNorm();
   }
   EXPECT_NEAR(std::sqrt(angle / kDraws), 2.0 * kDegree, 0.03 * 2.0 * kDegree);
@@ -127,9 +127,9 @@ TEST(Noise, ACommonAngleCancelsForASimilarity) {
   const Eigen::Matrix2d similarity = 1.2 * Eigen::Rotation2Dd(0.3).toRotationMatrix();
   double apart = 0.0;
   for (int i = 0; i < 100; ++i) {
-    const auto common = noisy_affinity(similarity, {0.0, 5.0, 0.0}, NoiseShape::common, random);
+    const auto common = noisy_affinity(similarity, {0.0, 5.0, 0.0}, NoiseShape::kCommon, random);
     EXPECT_LT((common - similarity).norm(), 1e-13);
-    const auto own = noisy_affinity(similarity, {0.0, 5.0, 0.0}, NoiseShape::uniform, random);
+    const auto own = noisy_affinity(similarity, {0.0, 5.0, 0.0}, NoiseShape::kUniform, random);
     apart = std::max(apart, (own - similarity).norm());
   }
   EXPECT_GT(apart, 0.1);
@@ -142,7 +142,7 @@ TEST(Noise, PointsMoveByTheLengthInAnyDirectionAndTheAffinityFollows) {
   const Eigen::Vector2d exact = (H * x1.homogeneous()).hnormalized();
   Eigen::Vector2d mean = Eigen::Vector2d::Zero();
   for (int i = 0; i < kDraws; ++i) {
-    const auto ac = noisy_correspondence(H, x1, {0.7, 0.0, 0.0}, NoiseShape::uniform, random);
+    const auto ac = noisy_correspondence(H, x1, {0.7, 0.0, 0.0}, NoiseShape::kUniform, random);
     ASSERT_NEAR((ac.x2 - exact).norm() * kStudyFocalPx, 0.7, 1e-10);
     mean += (ac.x2 - exact) * kStudyFocalPx / kDraws;
     // The affine equations hold at the noisy point, with the true homography: only eq. (4) does

@@ -51,14 +51,14 @@ TEST(StudyReport, CsvShowsTheErrorOfItsFigure) {
   for (std::string cell; std::getline(row, cell, ',');) cells.push_back(cell);
   ASSERT_EQ(cells.size(), 7U);
   EXPECT_EQ(cells[1], "1AC ground");
-  EXPECT_NEAR(std::stod(cells[4]), ours.of(StudyMetric::translation).mean, 1e-5);
+  EXPECT_NEAR(std::stod(cells[4]), ours.of(StudyMetric::kTranslation).mean, 1e-5);
   EXPECT_EQ(std::stoul(cells[3]), 40 - ours.solved);
 }
 
 TEST(StudyReport, SvgNamesMethodsErrorAndUnits) {
   const StudyResult result = run_study(small({"d"}));
   const std::string svg =
-      svg_of(result.experiments[0], wanted_figures(result.options).front(), DataUse::all);
+      svg_of(result.experiments[0], wanted_figures(result.options).front(), DataUse::kAll);
   for (const char* part : {"(d) Forward motion, frontal wall", "1AC front wall", "4PC", "2AC",
                            "mean translation error [°]", "point noise [px]", "same four"}) {
     EXPECT_NE(svg.find(part), std::string::npos) << part;
@@ -67,8 +67,8 @@ TEST(StudyReport, SvgNamesMethodsErrorAndUnits) {
 
 TEST(StudyReport, SummarySaysPlainlyWhereItDisagrees) {
   StudyOptions options = small({"c"});
-  options.data_use = DataUse::minimal;
-  options.noise_shape = NoiseShape::fixed;
+  options.data_use = DataUse::kMinimal;
+  options.noise_shape = NoiseShape::kFixed;
   const std::string summary = summary_of(run_study(options), {});
   EXPECT_NE(summary.find("**Our result disagrees with the paper**"), std::string::npos);
   EXPECT_NE(summary.find("**not so:** Forward motion, frontal wall, rotation"), std::string::npos);

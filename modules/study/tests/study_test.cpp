@@ -76,7 +76,7 @@ TEST(Study, PointsOfASweepDrawAnew) {
   // Small errors are linear in the noise: the same draws would double them exactly.
   const Experiment& experiment = experiment_named("rapid_ground");
   const auto mean = [&](std::size_t point) {
-    return run_point(experiment, point, small({}, 10)).methods[0].of(StudyMetric::rotation).mean;
+    return run_point(experiment, point, small({}, 10)).methods[0].of(StudyMetric::kRotation).mean;
   };
   EXPECT_GT(std::abs(mean(2) / mean(1) - 2.0), 0.1);
 }
@@ -86,7 +86,7 @@ TEST(Study, StatisticsAreThoseOfTheSolvedTrials) {
   ASSERT_EQ(point.methods.size(), 3U);
   EXPECT_DOUBLE_EQ(point.value, 0.5);
   for (const StudyMethodResult& method : point.methods) {
-    const ErrorStatistics& errors = method.of(StudyMetric::rotation);
+    const ErrorStatistics& errors = method.of(StudyMetric::kRotation);
     EXPECT_GT(method.solved, 380U);
     EXPECT_LE(method.solved, 400U);
     EXPECT_GT(errors.median, 0.0);

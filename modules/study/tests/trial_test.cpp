@@ -15,16 +15,16 @@ constexpr double kRounding_rad = 1e-6;
 
 TEST(Trial, ZeroNoiseGivesZeroErrorForEveryMethodOfEveryExperiment) {
   for (const Experiment& experiment : experiments()) {
-    if (experiment.sweep == StudySweep::tilt) continue;  // breaks the planar model on purpose
+    if (experiment.sweep == StudySweep::kTilt) continue;  // breaks the planar model on purpose
     for (const double value : sweep_values(experiment.sweep)) {
       StudyScene scene = scene_at(experiment, value);
       scene.noise = {};
       for (std::uint64_t seed = 0; seed < 20; ++seed) {
         TrialRandom random(trial_seed(1, experiment.name, 0, seed));
-        const auto acs = draw_correspondences(scene, NoiseShape::fixed, random);
+        const auto acs = draw_correspondences(scene, NoiseShape::kFixed, random);
         for (const StudyMethod method : experiment.methods) {
           const AcSpan span(acs.data(), acs.size());
-          const auto errors = errors_of(method, DataUse::all, span, scene);
+          const auto errors = errors_of(method, DataUse::kAll, span, scene);
           ASSERT_TRUE(errors) << experiment.name << " " << value << " " << method->label;
           EXPECT_LT(errors->rotation, kRounding_rad) << experiment.name << method->label;
           EXPECT_LT(errors->translation, 100 * kRounding_rad)
@@ -44,7 +44,7 @@ TEST(Trial, ScenesAreThoseOfThePaper) {
       EXPECT_NEAR(scene.T_2_1.t.norm(), 0.1, 1e-15);
       // The camera's own way in the first frame: forward or to the right.
       const Eigen::Vector3d way = -(scene.T_2_1.R.transpose() * scene.T_2_1.t);
-      const Eigen::Vector3d axis = experiment.motion == StudyMotion::forward
+      const Eigen::Vector3d axis = experiment.motion == StudyMotion::kForward
                                        ? Eigen::Vector3d::UnitZ()
                                        : Eigen::Vector3d::UnitX();
       EXPECT_LT((way - 0.1 * axis).norm(), 1e-15);
@@ -79,7 +79,7 @@ TEST(Trial, PointsLieOnThePlaneBeforeBothCamerasAndInBothImages) {
       scene.noise = {};
       TrialRandom random(3);
       for (const AffineCorrespondence& ac :
-           draw_correspondences(scene, NoiseShape::uniform, random)) {
+           draw_correspondences(scene, NoiseShape::kUniform, random)) {
         const double depth = 1.0 / scene.plane.n.dot(Eigen::Vector3d(ac.x1.x(), ac.x1.y(), 1.0));
         EXPECT_GT(depth, 0.0);
         EXPECT_LE(depth, kStudyMaxDepth * (1.0 + 1e-12));
@@ -96,24 +96,24 @@ TEST(Trial, PointsLieOnThePlaneBeforeBothCamerasAndInBothImages) {
 TEST(Trial, MethodsUseAsManyCorrespondencesAsTheirNamesSay) {
   const StudyScene scene = scene_at(experiment_named("forward_ground"), 0.5);
   TrialRandom random(8);
-  const auto acs = draw_correspondences(scene, NoiseShape::uniform, random);
+  const auto acs = draw_correspondences(scene, NoiseShape::kUniform, random);
   const auto error = [&](StudyMethod method, DataUse use, std::size_t broken) {
     auto changed = acs;
     changed[broken].x2 += Eigen::Vector2d(0.01, 0.02);
     return errors_of(method, use, AcSpan(changed.data(), 4), scene)->translation;
   };
-  EXPECT_NE(error(study_method("relpose_1ac_ground"), DataUse::minimal, 0),
-            error(study_method("relpose_1ac_ground"), DataUse::minimal, 1));
-  EXPECT_EQ(error(study_method("relpose_1ac_ground"), DataUse::minimal, 1),
-            error(study_method("relpose_1ac_ground"), DataUse::minimal, 3));
-  EXPECT_EQ(error(study_method("homography_2ac"), DataUse::minimal, 2),
-            error(study_method("homography_2ac"), DataUse::minimal, 3));
-  EXPECT_NE(error(study_method("homography_2ac"), DataUse::minimal, 1),
-            error(study_method("homography_2ac"), DataUse::minimal, 3));
-  EXPECT_NE(error(study_method("relpose_1ac_ground"), DataUse::all, 2),
-            error(study_method("relpose_1ac_ground"), DataUse::all, 3));
-  EXPECT_NE(error(study_method("homography_2ac"), DataUse::all, 2),
-            error(study_method("homography_2ac"), DataUse::all, 3));
+  EXPECT_NE(error(study_method("relpose_1ac_ground"), DataUse::kMinimal, 0),
+            error(study_method("relpose_1ac_ground"), DataUse::kMinimal, 1));
+  EXPECT_EQ(error(study_method("relpose_1ac_ground"), DataUse::kMinimal, 1),
+            error(study_method("relpose_1ac_ground"), DataUse::kMinimal, 3));
+  EXPECT_EQ(error(study_method("homography_2ac"), DataUse::kMinimal, 2),
+            error(study_method("homography_2ac"), DataUse::kMinimal, 3));
+  EXPECT_NE(error(study_method("homography_2ac"), DataUse::kMinimal, 1),
+            error(study_method("homography_2ac"), DataUse::kMinimal, 3));
+  EXPECT_NE(error(study_method("relpose_1ac_ground"), DataUse::kAll, 2),
+            error(study_method("relpose_1ac_ground"), DataUse::kAll, 3));
+  EXPECT_NE(error(study_method("homography_2ac"), DataUse::kAll, 2),
+            error(study_method("homography_2ac"), DataUse::kAll, 3));
 }
 
 TEST(Trial, EveryMethodIsGivenItsCandidateClosestToTheTruth) {
@@ -121,14 +121,14 @@ TEST(Trial, EveryMethodIsGivenItsCandidateClosestToTheTruth) {
   int two = 0;
   for (std::uint64_t seed = 0; seed < 200; ++seed) {
     TrialRandom random(seed);
-    const auto acs = draw_correspondences(scene, NoiseShape::uniform, random);
+    const auto acs = draw_correspondences(scene, NoiseShape::kUniform, random);
     const AcSpan span(acs.data(), acs.size());
     for (const StudyMethod method :
          {study_method("relpose_1ac_wall"), study_method("homography_4pc"),
           study_method("homography_2ac")}) {
-      const auto candidates = candidates_of(method, span, DataUse::all);
+      const auto candidates = candidates_of(method, span, DataUse::kAll);
       two += candidates.size() == 2 ? 1 : 0;
-      const auto errors = errors_of(method, DataUse::all, span, scene);
+      const auto errors = errors_of(method, DataUse::kAll, span, scene);
       for (const PlanePose& pose : candidates) {
         const double trace = (pose.motion.R * scene.T_2_1.R.transpose()).trace();
         const double rotation = std::acos(std::min(1.0, 0.5 * (trace - 1.0)));

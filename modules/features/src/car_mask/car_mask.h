@@ -1,7 +1,7 @@
 #pragma once
 
-#include "../image_pyramid.h"
 #include "car_region.h"
+#include "patch/image_pyramid.h"
 #include "static_structure.h"
 
 #include "oneac/features/ac_tracker.h"

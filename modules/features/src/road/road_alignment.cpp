@@ -1,10 +1,11 @@
 #include "oneac/features/road_alignment.h"
 
-#include "../klt_track.h"
+#include "klt/klt_track.h"
 #include "road_polish.h"
 #include "road_prior.h"
 #include "road_search.h"
 
+#include "oneac/base/check_bounds.h"
 #include "oneac/base/require.h"
 
 #include <Eigen/Geometry>
@@ -214,24 +215,8 @@ RoadImage road_image(const std::shared_ptr<const FrameFeatures>& features, const
 }
 
 void RoadAlignmentOptions::validate() const {
-  const auto positive = [](double value, const char* field) {
-    require(value > 0.0, field, value, "positive");
-  };
-  positive(half_width, "road.half_width");
-  positive(nearest, "road.nearest");
+  check_bounds("road", *this);
   require(farthest > nearest, "road.farthest", farthest, "more than nearest");
-  positive(search_sigmas, "road.search_sigmas");
-  require(min_correlation > 0.0 && min_correlation < 1.0, "road.min_correlation", min_correlation,
-          "between 0 and 1");
-  require(max_rival > 0.0 && max_rival <= 1.0, "road.max_rival", max_rival, "from 0 to 1");
-  require(min_blocks >= 1 && min_blocks <= kBlocks, "road.min_blocks", min_blocks, "1 … 15");
-  require(min_agreeing >= 0.0 && min_agreeing <= 1.0, "road.min_agreeing", min_agreeing, "0 … 1");
-  positive(noise_grey, "road.noise_grey");
-  positive(unevenness, "road.unevenness");
-  positive(heave, "road.heave");
-  require(height_sigma >= 0.0, "road.height_sigma", height_sigma, "not negative");
-  positive(min_rotation_sigma, "road.min_rotation_sigma");
-  positive(min_direction_sigma, "road.min_direction_sigma");
 }
 
 RoadAlignment align_road(const RoadImage& first, const RoadImage& second,

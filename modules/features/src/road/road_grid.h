@@ -1,6 +1,6 @@
 #pragma once
 
-#include "../image_pyramid.h"
+#include "patch/image_pyramid.h"
 
 #include "oneac/features/road_alignment.h"
 

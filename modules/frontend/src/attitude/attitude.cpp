@@ -5,8 +5,6 @@
 
 #include "oneac/geometry/angles.h"
 
-#include <string>
-
 namespace oneac {
 namespace {
 
@@ -15,7 +13,14 @@ constexpr double kLevelVehicle = 1.0 * kDegree;
 
 }  // namespace
 
-Attitude::Attitude(const TiltOptions& options) : options_(options) {}
+Attitude::Attitude(const TiltOptions& options)
+    : options_(options), source_(source_of(options.source)) {}
+
+Attitude::Source Attitude::source_of(const std::string& name) {
+  if (name == "params") return Source::kParams;
+  if (name == "imu") return Source::kImu;
+  return name == "drive" ? Source::kDrive : Source::kLog;
+}
 
 void Attitude::start(const Eigen::Matrix3d& R_vehicle_cam) {
   R_vehicle_cam_ = R_vehicle_cam;
@@ -25,18 +30,17 @@ void Attitude::start(const Eigen::Matrix3d& R_vehicle_cam) {
 
 void Attitude::add_inertial(const InertialReading& reading) {
   gravity_.add(reading);
-  if (mounting_ && options_.source == "imu") mounting_->set_given(given());
+  if (mounting_ && source_ == Source::kImu) mounting_->set_given(given());
 }
 
 Tilt Attitude::given() const {
-  const std::string& source = options_.source;
-  if (source == "params") {
+  if (source_ == Source::kParams) {
     return {options_.pitch_up_deg * kDegree, options_.roll_right_deg * kDegree};
   }
-  if (source == "drive") return {};
+  if (source_ == Source::kDrive) return {};
   const Tilt log = tilt_from_mounting(R_vehicle_cam_);
   const auto up = gravity_.up();
-  if (source != "imu" || !up) return log;
+  if (source_ != Source::kImu || !up) return log;
   // Weighed against the mounting on a level vehicle, which slopes and load make a degree uncertain.
   const Tilt felt = tilt_from_gravity(R_vehicle_cam_, *up);
   const double off = gravity_.sigma() / kLevelVehicle;
@@ -75,7 +79,7 @@ Levelling Attitude::before(const Eigen::Matrix3d& R_now_before) const {
 
 Levelling Attitude::levelling(double pitch_up) const {
   const TiltBelief camera = mounting();
-  return {leveling_rotation({pitch_up, camera.tilt.roll_right}), road_->tilt().pitch_sigma,
+  return {levelling_rotation({pitch_up, camera.tilt.roll_right}), road_->tilt().pitch_sigma,
           camera.roll_sigma};
 }
 

@@ -10,6 +10,7 @@
 #include <Eigen/Core>
 
 #include <optional>
+#include <string>
 
 namespace oneac {
 
@@ -37,10 +38,15 @@ class Attitude {
   [[nodiscard]] Levelling before(const Eigen::Matrix3d& R_now_before) const;
 
  private:
+  /// TiltOptions::source, resolved once.
+  enum class Source { kLog, kParams, kImu, kDrive };
+
+  [[nodiscard]] static Source source_of(const std::string& name);
   [[nodiscard]] Tilt given() const;
   [[nodiscard]] Levelling levelling(double pitch_up) const;
 
   TiltOptions options_;
+  Source source_;
   Eigen::Matrix3d R_vehicle_cam_ = Eigen::Matrix3d::Identity();
   GravityEstimator gravity_;
   std::optional<TiltEstimator> mounting_;  ///< from the first frame on

@@ -30,7 +30,7 @@ double squared(double value) {
 }
 
 Eigen::Vector3d road_normal(const Tilt& tilt) {
-  return leveling_rotation(tilt).row(1).transpose();
+  return levelling_rotation(tilt).row(1).transpose();
 }
 
 }  // namespace
@@ -62,10 +62,10 @@ void SuspensionTilt::add_step(const TiltStep& step, const TiltBelief& mounting) 
 }
 
 void SuspensionTilt::turn(const TiltStep& step) {
-  const Eigen::Matrix3d before = leveling_rotation(tilt_);
+  const Eigen::Matrix3d before = levelling_rotation(tilt_);
   tilt_ = tilt_from_down(step.R_2_1 * road_normal(tilt_));
   // An error of the normal stays where it is in the world: the levelled camera turns under it.
-  const Eigen::Matrix3d yawed = leveling_rotation(tilt_) * step.R_2_1 * before.transpose();
+  const Eigen::Matrix3d yawed = levelling_rotation(tilt_) * step.R_2_1 * before.transpose();
   Eigen::Matrix2d turned;
   turned << yawed(0, 0), yawed(0, 2), yawed(2, 0), yawed(2, 2);
   covariance_ = turned * covariance_ * turned.transpose();
@@ -73,7 +73,7 @@ void SuspensionTilt::turn(const TiltStep& step) {
 }
 
 void SuspensionTilt::measure_travel(const TiltStep::Travel& travel) {
-  const Eigen::Vector3d along = leveling_rotation(tilt_) * travel.direction;
+  const Eigen::Vector3d along = levelling_rotation(tilt_) * travel.direction;
   if (!(std::abs(along.z()) > kMainlyForward)) return;
   // A normal that is pitched up or rolled right too far has the travel rise or fall, by so much.
   measure({-along.z(), along.x()}, std::asin(std::clamp(along.y(), -1.0, 1.0)), travel.sigma);

@@ -45,7 +45,7 @@ double pitching_beside(double roll, const std::vector<Eigen::Vector3d>& turns) {
 }  // namespace
 
 TiltEstimator::TiltEstimator(const Tilt& given, const TiltOptions& options)
-    : given_(given), options_(options) {
+    : given_(given), options_(options), unknown_(options.source == "drive") {
   update();
 }
 
@@ -64,7 +64,7 @@ void TiltEstimator::add_step(const RelativePose& T_2_1) {
     // Points move against the camera: it travels along −t. Backing says the same as driving.
     const Eigen::Vector3d along = -T_2_1.t.normalized();
     const Eigen::Vector3d forward = along.z() > 0.0 ? along : Eigen::Vector3d(-along);
-    const Eigen::Vector3d travel = leveling_rotation(given_) * forward;
+    const Eigen::Vector3d travel = levelling_rotation(given_) * forward;
     if (travel.z() > kMainlyForward &&
         std::abs(std::atan2(travel.y(), travel.z())) < kLargestElevation)
       travels_.push_back(forward);
@@ -79,11 +79,10 @@ void TiltEstimator::update() {
 }
 
 double TiltEstimator::pitch_correction(double& sigma) const {
-  const bool unknown = options_.source == "drive";
-  const double prior = unknown ? kUnknownSigma : kGivenSigma;
+  const double prior = unknown_ ? kUnknownSigma : kGivenSigma;
   sigma = prior;
   if (travels_.empty()) return 0.0;
-  const Eigen::Matrix3d L = leveling_rotation(given_);
+  const Eigen::Matrix3d L = levelling_rotation(given_);
   std::vector<double> elevations;
   for (const Eigen::Vector3d& forward : travels_) {
     const Eigen::Vector3d travel = L * forward;
@@ -97,16 +96,15 @@ double TiltEstimator::pitch_correction(double& sigma) const {
   const double scatter = std::max(kMadToSigma * upper_median(std::move(off)), kLeastScatter);
   const double count = static_cast<double>(elevations.size());
   sigma = 1.0 / std::sqrt(count / (scatter * scatter) + 1.0 / (prior * prior));
-  const double trust = unknown ? 1.0 : count / (count + options_.prior_steps);
+  const double trust = unknown_ ? 1.0 : count / (count + options_.prior_steps);
   return trust * middle;
 }
 
 double TiltEstimator::roll_correction(double& sigma) const {
-  const bool unknown = options_.source == "drive";
-  const double prior = unknown ? kUnknownSigma : kGivenSigma;
+  const double prior = unknown_ ? kUnknownSigma : kGivenSigma;
   sigma = prior;
   if (turns_.empty()) return 0.0;
-  const Eigen::Matrix3d L = leveling_rotation(given_);
+  const Eigen::Matrix3d L = levelling_rotation(given_);
   std::vector<Eigen::Vector3d> level;
   for (const Eigen::Vector3d& turn : turns_) level.push_back(L * turn);
   double roll = 0.0;

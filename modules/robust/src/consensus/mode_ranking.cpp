@@ -38,7 +38,7 @@ constexpr double kMetRotationDeg = 0.05;
 constexpr double kMetDirectionDeg = 1.0;
 // Steps of the first passes need not be finer than the last pass [rad].
 constexpr double kCoarseStep = 1e-5;
-// Share of the settled cost below which other modes need not be looked at.
+// Share of the deciding cost below which other modes need not be looked at.
 constexpr double kNoDoubt = 0.25;
 // Bound [rad] that tells motions apart: one pixel at f = 700. What a wrong motion leaves is an
 // angle, decided by the scene, from 0.8 mrad (KITTI). In squares of the bound it is the less, the
@@ -48,7 +48,7 @@ constexpr double kTellingBound = 1.0 / 700.0;
 // Motions farther apart than either are in different basins: what counts as a wrong one.
 constexpr double kBasinRotationDeg = 1.0;
 constexpr double kBasinDirectionDeg = 15.0;
-// A motion settles the matter when the points shift by so many bounds beside its rotation (median):
+// A motion decides when the points shift by so many bounds beside its rotation (median):
 // below, a wrong direction of travel leaves them within the bound as well.
 constexpr double kClearShift = 3.0;
 
@@ -105,7 +105,7 @@ class Look {
   /// Whether a motion explains the points so well that no other can. Residuals spread evenly
   /// within the bound, of a motion that says nothing, cost 1/3 a point, and the right motion at
   /// most 1/4 where the bound is no less than two sigma of the noise.
-  [[nodiscard]] bool settled(const Candidate& c, const PointSet& points, double share = 1.0) const {
+  [[nodiscard]] bool decides(const Candidate& c, const PointSet& points, double share = 1.0) const {
     const double wider = std::max(1.0, p_.threshold / kTellingBound);
     return c.cost * wider * wider <
            share * p_.options.settled_cost * static_cast<double>(points.size());
@@ -127,13 +127,13 @@ class Look {
   }
 
   /// The best of the modes polished on the sample, looking no further than there is doubt: not
-  /// behind a mode that leaves none, and not at modes in the basin of one that settles.
+  /// behind a mode that leaves none, and not at modes in the basin of one that decides.
   std::optional<Candidate> best_on_sample(const std::vector<Candidate>& modes) {
     const Closeness one_basin(kBasinRotationDeg, kBasinDirectionDeg);
     std::optional<Candidate> best;
     for (const Candidate& mode : modes) {
-      if (best && settled(*best, sample_, kNoDoubt)) break;
-      if (best && settled(*best, sample_) && one_basin.same(best->pose, mode.pose)) continue;
+      if (best && decides(*best, sample_, kNoDoubt)) break;
+      if (best && decides(*best, sample_) && one_basin.same(best->pose, mode.pose)) continue;
       Candidate polished = mode;
       polish_on_sample(polished);
       if (!best || polished.cost < best->cost) best = polished;
@@ -166,7 +166,7 @@ class Look {
   RobustStatistics& statistics_;
 };
 
-/// At most one mode, polished on all points; empty when it does not settle the matter.
+/// At most one mode, polished on all points; empty when it does not decide.
 std::vector<Candidate> first_look(const ConsensusProblem& p, RobustStatistics& statistics) {
   Look look(p, kFirstSample, statistics);
   const std::vector<Candidate> modes =
@@ -176,7 +176,7 @@ std::vector<Candidate> first_look(const ConsensusProblem& p, RobustStatistics& s
   if (!favourite) return {};
   std::vector<Candidate> best = look.finalists({*favourite});
   const double shift = median_transfer_error(best.front().pose.R, p.acs, kFirstSample);
-  const bool stands = look.settled(best.front(), p.points) && shift > kClearShift * p.threshold;
+  const bool stands = look.decides(best.front(), p.points) && shift > kClearShift * p.threshold;
   return stands ? best : std::vector<Candidate>{};
 }
 

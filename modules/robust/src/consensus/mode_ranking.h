@@ -23,7 +23,7 @@ struct ConsensusProblem {
 };
 
 /// The distinct motions that the points support, polished on all of them, best first: those of a
-/// first look without a relative pitch where the best of them settles the matter, else those of
+/// first look without a relative pitch where the best of them decides, else those of
 /// the whole search. Empty when no correspondence gave a hypothesis.
 [[nodiscard]] std::vector<Candidate> ranked_modes(const ConsensusProblem& problem,
                                                   RobustStatistics& statistics);

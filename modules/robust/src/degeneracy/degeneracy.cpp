@@ -5,7 +5,7 @@
 
 #include "oneac/base/median.h"
 #include "oneac/geometry/essential.h"
-#include "oneac/geometry/leveling.h"
+#include "oneac/geometry/levelling.h"
 #include "oneac/geometry/triangulation.h"
 #include "oneac/robust/point_set.h"
 #include "oneac/robust/polish.h"
@@ -121,7 +121,7 @@ double distance_from_planar(const RelativePose& pose, const Eigen::Matrix3d& R_l
 
 }  // namespace
 
-std::optional<RobustResult> standing(AcSpan acs, const DegeneracyBounds& bounds) {
+std::optional<RobustResult> find_standing(AcSpan acs, const DegeneracyBounds& bounds) {
   if (!is_nearly_explained(acs, Eigen::Matrix3d::Identity(), bounds.standing_shift)) {
     return std::nullopt;
   }
@@ -142,7 +142,7 @@ MotionDecision resting_or_moving(AcSpan acs, const RelativePose& candidate,
   const MotionEvidence evidence = judged(acs, {fit.R, {candidate}}, bounds);
   decision.evidence = evidence;
   if (evidence.model == MotionModel::kTranslation) {
-    // The sense of a candidate is settled after polishing, as it stands.
+    // The sense of a candidate is decided after polishing, as it stands.
     if (evidence.pose.R != candidate.R) decision.moving = evidence.pose;
     return decision;
   }
@@ -153,7 +153,8 @@ MotionDecision resting_or_moving(AcSpan acs, const RelativePose& candidate,
   return decision;
 }
 
-void conclude(const RelativePose& candidate, AcSpan acs, double threshold, RobustResult& result) {
+void complete_result(const RelativePose& candidate, AcSpan acs, double threshold,
+                     RobustResult& result) {
   PolishOptions options;
   options.threshold = threshold;
   options.starts_near = true;  // the candidate was polished in single precision
@@ -175,8 +176,8 @@ void conclude(const RelativePose& candidate, AcSpan acs, double threshold, Robus
   result.covariance = internal::pose_covariance(polished, result, squares);
 }
 
-void settle_one_plane(AcSpan acs, const Eigen::Matrix3d& R_level_cam, double threshold,
-                      RobustResult& result) {
+void resolve_one_plane(AcSpan acs, const Eigen::Matrix3d& R_level_cam, double threshold,
+                       RobustResult& result) {
   const auto plane = internal::common_plane(result.pose, acs, result.inliers, threshold);
   if (!plane) return;
   result.status = PoseStatus::kOnePlane;
@@ -186,7 +187,7 @@ void settle_one_plane(AcSpan acs, const Eigen::Matrix3d& R_level_cam, double thr
     return;
   }
   RobustResult other = result;
-  conclude(*twin, acs, threshold, other);
+  complete_result(*twin, acs, threshold, other);
   // Polishing may lose the twin where the points leave it no basin of its own.
   if (other.inlier_count * 10 >= result.inlier_count * 9) result = other;
 }

@@ -151,7 +151,7 @@ void MotionEvidenceOptions::validate() const {
 
 Eigen::Vector3d direction_of_dissent(AcSpan acs, const Eigen::Matrix3d& R, double sigma) {
   constexpr double kDissents = 4.0;  // sigmas
-  constexpr int kRounds = 3;         // of the reweighting; agreeing points settle in two
+  constexpr int kRounds = 3;         // of the reweighting; agreeing points converge in two
   std::vector<Eigen::Vector3d> normals;
   std::vector<Eigen::Vector3d> motions;
   for (const AffineCorrespondence& ac : acs) {

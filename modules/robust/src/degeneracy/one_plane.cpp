@@ -11,7 +11,7 @@
 namespace oneac::internal {
 namespace {
 
-constexpr int kIterations = 5;  // of the reweighting; the plane of most points settles in three
+constexpr int kIterations = 5;  // of the reweighting; the plane of most points converges in three
 // Share of the inliers that has to lie on the plane: a handful of points beside it, each with a
 // parallax of its own, already decides between the two poses.
 constexpr double kPlaneShare = 0.95;

@@ -2,19 +2,20 @@
 
 #include "gc_ransac/gc_ransac_loop.h"
 
+#include "oneac/base/check_bounds.h"
 #include "oneac/base/require.h"
 #include "oneac/geometry/essential.h"
 #include "oneac/geometry/homography.h"
+#include "oneac/robust/finite_acs.h"
 #include "oneac/robust/point_set.h"
 #include "oneac/robust/polish.h"
 #include "oneac/solvers/essential_8pc.h"
 
 #include <cmath>
+#include <utility>
 
 namespace oneac {
 namespace {
-
-using internal::FiniteAcs;
 
 // A minimal model of planar motion is off by the suspension's pitch, some pixels; the first
 // polishing passes look wider than the threshold to get there.
@@ -116,14 +117,17 @@ void conclude(const Eigen::Matrix3d& E, EpipolarSpace& space, const FiniteAcs& f
               std::size_t min_inliers, RobustResult& result) {
   std::vector<double> errors;
   space.squared_errors(E, errors);
-  result.inlier_count = internal::flag_inliers(finite, errors, result.inliers);
-  result.cost = space.cost(E, static_cast<double>(finite.acs.size()) + 1.0) +
-                static_cast<double>(result.inliers.size() - finite.acs.size());
-  if (result.inlier_count < min_inliers) return;
+  std::vector<bool> flags(errors.size());
   std::vector<AffineCorrespondence> inliers;
   for (std::size_t k = 0; k < errors.size(); ++k) {
-    if (errors[k] <= 1.0) inliers.push_back(finite.acs[k]);
+    flags[k] = errors[k] <= 1.0;
+    if (flags[k]) inliers.push_back(finite.acs()[k]);
   }
+  const std::size_t all = result.inliers.size(), taken = finite.acs().size();
+  result.inliers = finite.spread(std::move(flags));
+  result.inlier_count = inliers.size();
+  result.cost = space.cost(E, static_cast<double>(taken) + 1.0) + static_cast<double>(all - taken);
+  if (result.inlier_count < min_inliers) return;
   const auto pose = pose_from_essential(E, inliers);
   if (pose.empty()) return;
   result.pose = pose[0];
@@ -133,22 +137,9 @@ void conclude(const Eigen::Matrix3d& E, EpipolarSpace& space, const FiniteAcs& f
 }  // namespace
 
 void GcRansacOptions::validate() const {
-  require(threshold_px > 0.0, "gc_ransac.threshold_px", threshold_px, "positive");
-  require(confidence > 0.0 && confidence < 1.0, "gc_ransac.confidence", confidence,
-          "between 0 and 1");
-  require(max_iterations >= 1, "gc_ransac.max_iterations", max_iterations, "at least 1");
-  require(min_iterations >= 1 && min_iterations <= max_iterations, "gc_ransac.min_iterations",
-          min_iterations, "from 1 to max_iterations");
-  require(sampler == "uniform" || sampler == "prosac", "gc_ransac.sampler", sampler,
-          "uniform or prosac");
-  require(neighbourhood_cells >= 1 && neighbourhood_cells <= 1000, "gc_ransac.neighbourhood_cells",
-          neighbourhood_cells, "from 1 to 1000");
-  require(coherence >= 0.0 && coherence < 1e6, "gc_ransac.coherence", coherence,
-          "at least 0 and finite");
-  require(lo_iterations >= 0, "gc_ransac.lo_iterations", lo_iterations, "at least 0");
-  require(lo_model == "both" || lo_model == "polish" || lo_model == "8pc", "gc_ransac.lo_model",
-          lo_model, "both, polish or 8pc");
-  require(min_inliers >= 5, "gc_ransac.min_inliers", min_inliers, "at least 5");
+  check_bounds("gc_ransac", *this);
+  require(min_iterations <= max_iterations, "gc_ransac.min_iterations", min_iterations,
+          "from 1 to max_iterations");
 }
 
 RobustResult gc_ransac(AcSpan acs, const Eigen::Matrix3d& R_level_cam, double focal_px,
@@ -161,9 +152,9 @@ RobustResult gc_ransac(AcSpan acs, const Eigen::Matrix3d& R_level_cam, double fo
   result.cost = static_cast<double>(acs.size());
   const FiniteAcs finite(acs);
   const auto min_inliers = static_cast<std::size_t>(options.min_inliers);
-  if (finite.acs.size() < min_inliers) return result;
+  if (finite.acs().size() < min_inliers) return result;
   const double threshold = options.threshold_px / focal_px;
-  EpipolarSpace space(finite.acs, R_level_cam, solver, threshold, options.lo_model);
+  EpipolarSpace space(finite.acs(), R_level_cam, solver, threshold, options.lo_model);
   const internal::LoopResult found = internal::gc_ransac_loop(space, seed, options);
   result.statistics = found.statistics;
   if (!found.found) return result;

@@ -158,16 +158,6 @@ LoopResult gc_ransac_loop(ModelSpace& space, std::uint64_t seed, const GcRansacO
   return Loop(space, seed, options).run();
 }
 
-FiniteAcs::FiniteAcs(AcSpan all) {
-  acs.reserve(all.size());
-  index.reserve(all.size());
-  for (std::size_t i = 0; i < all.size(); ++i) {
-    if (!all[i].is_finite()) continue;
-    acs.push_back(all[i]);
-    index.push_back(i);
-  }
-}
-
 AcSpan gather(AcSpan acs, const std::vector<std::uint8_t>& labels,
               std::vector<AffineCorrespondence>& buffer) {
   buffer.clear();
@@ -175,17 +165,6 @@ AcSpan gather(AcSpan acs, const std::vector<std::uint8_t>& labels,
     if (labels[i] != 0) buffer.push_back(acs[i]);
   }
   return buffer;
-}
-
-std::size_t flag_inliers(const FiniteAcs& finite, const std::vector<double>& squared_errors,
-                         std::vector<bool>& inliers) {
-  std::size_t count = 0;
-  for (std::size_t k = 0; k < squared_errors.size(); ++k) {
-    const bool inlier = squared_errors[k] <= 1.0;
-    inliers[finite.index[k]] = inlier;
-    count += inlier ? 1 : 0;
-  }
-  return count;
 }
 
 }  // namespace oneac::internal

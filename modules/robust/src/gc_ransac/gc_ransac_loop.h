@@ -57,19 +57,8 @@ struct LoopResult {
 [[nodiscard]] LoopResult gc_ransac_loop(ModelSpace& space, std::uint64_t seed,
                                         const GcRansacOptions& options);
 
-/// The finite ones of the correspondences, and where they were.
-struct FiniteAcs {
-  explicit FiniteAcs(AcSpan acs);
-  std::vector<AffineCorrespondence> acs;
-  std::vector<std::size_t> index;
-};
-
 /// The labelled ones, gathered into a buffer that keeps its memory.
 AcSpan gather(AcSpan acs, const std::vector<std::uint8_t>& labels,
               std::vector<AffineCorrespondence>& buffer);
-
-/// Inlier flags of all correspondences from the errors of the finite ones; returns their number.
-std::size_t flag_inliers(const FiniteAcs& finite, const std::vector<double>& squared_errors,
-                         std::vector<bool>& inliers);
 
 }  // namespace oneac::internal

@@ -17,8 +17,8 @@ class InputError : public std::runtime_error {
   InputError(const std::string& where, const std::string& fault, const std::string& cure);
 };
 
-/// A file that could not be written (disk full, read-only): exit code 1, or 2 where the user named
-/// it.
+/// A file that could not be written (disk full, read-only): exit code 1, or 2 where
+/// the user named it.
 class OutputError : public std::runtime_error {
  public:
   OutputError(const std::string& where, const std::string& fault, const std::string& cure);

@@ -13,6 +13,7 @@ struct ImageView {
   int height = 0;  ///< [px]
   int stride = 0;  ///< bytes from one row to the next
 
+  /// No pixels.
   [[nodiscard]] bool empty() const { return data == nullptr || width <= 0 || height <= 0; }
 };
 
@@ -27,6 +28,7 @@ class GreyImage {
 
   [[nodiscard]] int width() const { return width_; }
   [[nodiscard]] int height() const { return height_; }
+  /// No pixels.
   [[nodiscard]] bool empty() const { return pixels_.empty(); }
   [[nodiscard]] ImageView view() const { return {pixels_.data(), width_, height_, width_}; }
   [[nodiscard]] std::uint8_t* row(int v) { return pixels_.data() + offset(v); }

@@ -1,5 +1,7 @@
 #pragma once
 
+#include "oneac/base/bound.h"
+
 #include <cstddef>
 #include <string>
 #include <utility>
@@ -8,12 +10,14 @@
 
 namespace oneac {
 
-/// A flat view of option structs: "section.key" names bound to their fields, with unit and meaning.
+/// A flat view of option structs: "section.key" names bound to their fields,
+/// with unit, meaning and bound.
 ///
 /// An option struct takes part by a free function `describe(visit, options)` beside it, which calls
-/// `visit(key, field, unit, meaning)` for each field and `visit.section(name, nested)` for each
-/// nested struct. The table is what YAML files, `--set` and the shipped defaults are made from, so
-/// that they cannot differ. It borrows the structs: they must outlive it.
+/// `visit(key, field, unit, meaning, bound)` for each field (no bound: any value) and
+/// `visit.section(name, nested)` for each nested struct. The table is what YAML files, `--set` and
+/// the shipped defaults are made from, so that they cannot differ. It borrows the structs: they
+/// must outlive it.
 class ParameterTable {
  public:
   using Target = std::variant<double*, int*, std::size_t*, bool*, std::string*>;
@@ -22,6 +26,7 @@ class ParameterTable {
     Target target;
     std::string unit;
     std::string meaning;
+    Bound bound;
   };
 
   /// Adds every field of `options` under "prefix." (or bare when the prefix is empty).
@@ -35,9 +40,10 @@ class ParameterTable {
   ///         text is not of the field's type
   void set(const std::string& key, const std::string& text);
 
+  /// In the order they were added.
   [[nodiscard]] const std::vector<Parameter>& parameters() const { return parameters_; }
   [[nodiscard]] std::string value_text(const Parameter& parameter) const;
-  /// All values as a YAML document, "# [unit] meaning" behind each when `comments`.
+  /// All values as a YAML document, "# [unit, bound] meaning" behind each when `comments`.
   [[nodiscard]] std::string to_yaml(bool comments) const;
 
  private:
@@ -47,8 +53,9 @@ class ParameterTable {
     std::string prefix;
 
     template <class Field>
-    void operator()(const char* key, Field& field, const char* unit, const char* meaning) const {
-      table.parameters_.push_back({prefix + key, Target(&field), unit, meaning});
+    void operator()(const char* key, Field& field, const char* unit, const char* meaning,
+                    const Bound& bound = {}) const {
+      table.parameters_.push_back({prefix + key, Target(&field), unit, meaning, bound});
     }
     template <class Options>
     void section(const char* name, Options& options) const {

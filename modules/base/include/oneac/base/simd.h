@@ -13,9 +13,9 @@ enum class SimdLevel { kBaseline, kAvx2, kAvx512 };
 
 namespace internal {
 
-/// A table of functions compiled for one level. A module declares the three specialisations beside
-/// its struct `Kernels` and defines them in the one file that oneac_simd() of CMake compiles per
-/// level (base/simd_lanes.h).
+/// A table of functions compiled for one level. A module declares the three specialisations
+/// beside its struct `Kernels` and defines them in the one file that oneac_simd() of CMake
+/// compiles per level (base/simd_lanes.h).
 template <class Kernels, SimdLevel kLevel>
 [[nodiscard]] const Kernels& simd_kernels_at();
 

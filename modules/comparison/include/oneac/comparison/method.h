@@ -19,8 +19,8 @@ struct CompareMethod {
 /// @param initialisers  names, or "all"
 /// @param estimators    names, "default" (the first one of each initialiser) or "all"; an
 ///                      initialiser that has none of the named ones is left out
-/// @throws InputError for a name that does not exist (the nearest is suggested), or when nothing
-///         is left
+/// @throws InputError for a name that does not exist (the nearest is suggested), or
+///         when nothing is left
 [[nodiscard]] std::vector<CompareMethod> plan_methods(const std::vector<std::string>& initialisers,
                                                       const std::vector<std::string>& estimators);
 

@@ -17,6 +17,7 @@ struct Shard {
   std::size_t index = 0;
   std::size_t count = 1;
 
+  /// Whether the pair of this number is in the share.
   [[nodiscard]] bool has(std::size_t ordinal) const { return ordinal % count == index; }
   /// "0of1", the part of the journal's name.
   [[nodiscard]] std::string name() const;
@@ -41,6 +42,7 @@ struct CompareSettings {
   [[nodiscard]] SourceOptions source_of(std::size_t log) const;
   /// Short name of each log for tables, without comma, each different.
   [[nodiscard]] std::vector<std::string> log_names() const;
+  /// Of the methods, in the order of the tables.
   [[nodiscard]] std::vector<std::string> method_labels() const;
   /// All of the above as one line of JSON; equal text means equal results.
   [[nodiscard]] std::string fingerprint() const;

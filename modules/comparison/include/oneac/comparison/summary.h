@@ -21,6 +21,7 @@ struct ResultError {
   /// without a reference.
   std::optional<double> pose;
 };
+/// Of one method on one pair, against the reference where there is one.
 [[nodiscard]] ResultError error_of(const PairRecord& pair, const MethodResult& result);
 
 /// Area under the recall curve up to a bound, as a share of the bound.

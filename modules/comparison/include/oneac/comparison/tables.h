@@ -35,7 +35,9 @@ struct TableBlock {
 [[nodiscard]] std::vector<TableBlock> table_blocks(const std::vector<MethodSummary>& rows);
 /// What a method's row shows of a log.
 [[nodiscard]] Cell cell_of(const TableBlock& block, std::size_t method, std::size_t log);
+/// All blocks as Markdown, the best of each column bold.
 [[nodiscard]] std::string table_md(const std::vector<TableBlock>& blocks);
+/// The same for LaTeX.
 [[nodiscard]] std::string table_tex(const std::vector<TableBlock>& blocks);
 
 }  // namespace oneac

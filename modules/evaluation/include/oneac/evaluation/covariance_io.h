@@ -29,7 +29,7 @@ struct CovarianceRow {
 
 /// Reads a covariance.csv as written by format_covariances().
 /// @throws InputError naming file, line and cure: not readable, another header, a wrong number of
-/// fields, not a finite number
+///         fields, not a finite number
 [[nodiscard]] std::vector<CovarianceRow> read_covariances(const std::filesystem::path& path);
 
 }  // namespace oneac

@@ -25,6 +25,7 @@ struct PairError {
   std::optional<double> direction;  ///< ξ_t [rad]; empty for a small true step or a zero t
   std::optional<double> length;     ///< |t_est| / |t_ref| − 1; only with a direction and metric
 
+  /// The true step exceeds 0.1 m: its direction can be judged.
   [[nodiscard]] bool is_moving() const { return true_step > kSmallestTrueStep; }
   /// Wrong basin. Never where the direction cannot be judged.
   [[nodiscard]] bool is_bad() const;
@@ -46,6 +47,7 @@ struct PairSummary {
 /// @param truth  T_2_1 of the reference in metres, in the same camera frame
 [[nodiscard]] PairError pair_error(const RelativePoseRow& row, const RelativePose& truth);
 
+/// Of all pairs with a reference; those without are only counted.
 [[nodiscard]] PairSummary summarise(const std::vector<PairError>& errors,
                                     std::size_t without_reference);
 

@@ -37,8 +37,8 @@ struct TimingRow {
 /// Reads a relative_poses.csv; columns are found by name, in any order, others are passed over. The
 /// column `sigma_length` may be missing, as in files from before it.
 /// @throws InputError naming file, line and cure: not readable, a column is missing, a row with
-/// too few fields, not a finite number, not a unit quaternion, metric neither 0 nor 1, a negative
-/// sigma_length
+///         too few fields, not a finite number, not a unit quaternion, metric neither 0 nor 1,
+///         a negative sigma_length
 [[nodiscard]] std::vector<RelativePoseRow> read_relative_poses(const std::filesystem::path& path);
 
 /// True when the first line of the file names the columns of a relative_poses.csv; false also when
@@ -47,7 +47,7 @@ struct TimingRow {
 
 /// The text of a relative_poses.csv; poses and times read back exactly (rotations to rounding).
 /// @throws std::invalid_argument when a number is not finite, a sigma_length is negative, or a
-/// status has a comma or line break
+///         status has a comma or line break
 [[nodiscard]] std::string format_relative_poses(const std::vector<RelativePoseRow>& rows);
 
 /// The text of a timings.csv, three decimals.

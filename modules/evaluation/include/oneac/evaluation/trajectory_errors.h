@@ -20,6 +20,7 @@ enum class Alignment {
 
 /// "none", "se3" or "sim3". @throws std::invalid_argument naming the value and the choices
 [[nodiscard]] Alignment alignment_from_name(const std::string& name);
+/// The inverse of alignment_from_name().
 [[nodiscard]] std::string name_of(Alignment alignment);
 
 /// y ≈ scale R x + t.
@@ -28,6 +29,7 @@ struct Similarity {
   Eigen::Matrix3d R = Eigen::Matrix3d::Identity();
   Eigen::Vector3d t = Eigen::Vector3d::Zero();
 
+  /// scale R x + t.
   [[nodiscard]] Eigen::Vector3d operator*(const Eigen::Vector3d& x) const {
     return scale * (R * x) + t;
   }
@@ -71,6 +73,7 @@ struct TrajectoryErrors {
 /// Length of the path through the positions [m].
 [[nodiscard]] double path_length(const std::vector<Eigen::Isometry3d>& poses);
 
+/// KITTI's t_rel and r_rel (docs/conventions.md); empty where the path is too short for any length.
 [[nodiscard]] std::optional<SubsequenceErrors> subsequence_errors(
     const MatchedTrajectories& matched);
 

@@ -13,9 +13,10 @@ struct Trajectory {
   std::vector<double> times;  ///< Unix time [s], strictly increasing; empty or as many as poses
   std::vector<Eigen::Isometry3d> poses;
 
+  /// A time per pose, else none.
   [[nodiscard]] bool has_times() const { return !times.empty(); }
   /// @throws std::invalid_argument naming the row: times that do not fit the poses or do not
-  /// increase, numbers that are not finite
+  ///         increase, numbers that are not finite
   void validate() const;
 };
 
@@ -23,7 +24,7 @@ struct Trajectory {
 ///
 /// Blank lines and lines that start with # are passed over; rotations are made orthonormal.
 /// @throws InputError naming file, line and cure: not readable, no pose, wrong number of columns,
-/// not a finite number, not a rotation
+///         not a finite number, not a rotation
 [[nodiscard]] Trajectory read_kitti(const std::filesystem::path& path);
 
 /// Reads a TUM file: `time x y z qx qy qz qw` per line; otherwise as read_kitti.

@@ -21,8 +21,7 @@ struct MeasuredDepth {
 /// map. Image units are those of its pair: pixels out of the tracker, where A = ∂u2/∂u1, and
 /// normalised after normalised().
 struct Correspondence : AffineCorrespondence {
-  std::uint64_t track = 0;    ///< the same number in every pair that the track lives through, never
-                              ///< used twice
+  std::uint64_t track = 0;    ///< the same in every pair the track lives through, never used twice
   double point_sigma = 0.0;   ///< 1σ of a coordinate of x2 [image unit]; 0 where unknown
   double affine_sigma = 0.0;  ///< 1σ of an entry of A [-]; 0 where unknown
   /// K [image unit²]: a patch that maps as δ ↦ A δ (1 − η·δ), which perspective does, is found with
@@ -39,6 +38,7 @@ struct TrackedPair {
   std::vector<Correspondence> correspondences;
   bool standing = false;  ///< the images are near-identical: the camera stood
 
+  /// Of correspondences.
   [[nodiscard]] std::size_t size() const { return correspondences.size(); }
   [[nodiscard]] bool empty() const { return correspondences.empty(); }
 };

@@ -1,5 +1,7 @@
 #pragma once
 
+#include "oneac/base/bound.h"
+
 #include <string>
 
 namespace oneac {
@@ -13,6 +15,7 @@ struct MatchOptions {
   double max_scale =
       2.0;  ///< [-] largest ratio of areas' square roots: beyond it shapes do not match
 
+  /// @throws std::invalid_argument naming field, value and bound
   void validate() const;
 };
 
@@ -23,6 +26,7 @@ struct VlfeatOptions {
   double edge_threshold = 10;    ///< [-] ratio of curvatures; Lowe's value
   int max_features = 3000;       ///< strongest DoG peaks kept; bounds the cost on busy images
 
+  /// @throws std::invalid_argument naming field, value and bound
   void validate() const;
 };
 
@@ -41,6 +45,7 @@ struct KltOptions {
   double standing_px = 0.15;  ///< [px] median shift of near-identical images
   int static_frames = 5;      ///< a point that stays that long while it must move is no scene
 
+  /// @throws std::invalid_argument naming field, value and bound
   void validate() const;
 };
 
@@ -50,6 +55,7 @@ struct MaskOptions {
   std::string image;    ///< grey picture of the camera's size: what is darker than 128 is not used
   bool learn = true;    ///< klt learns what is fixed to the car (bonnet) and leaves it out, too
 
+  /// @throws std::invalid_argument naming field, value and bound
   void validate() const;
 };
 
@@ -62,38 +68,51 @@ struct FeatureOptions {
   MatchOptions match;
   MaskOptions mask;
 
+  /// @throws std::invalid_argument naming field, value and bound
   void validate() const;
 };
 
 /// Describes every option to a visitor: visit(key, field, unit, reason).
 template <class Visitor>
 void describe(Visitor&& visit, MatchOptions& o) {
-  visit("snn_ratio", o.snn_ratio, "-", "nearest over second nearest descriptor distance");
+  visit("snn_ratio", o.snn_ratio, "-", "nearest over second nearest descriptor distance",
+        Bound::above_to(0, 1));
   visit("mutual", o.mutual, "bool", "keep only matches that are nearest in both directions");
-  visit("max_shift_px", o.max_shift_px, "px", "largest image motion between two frames");
-  visit("max_scale", o.max_scale, "-", "largest change of scale of a matched shape");
+  visit("max_shift_px", o.max_shift_px, "px", "largest image motion between two frames",
+        Bound::positive());
+  visit("max_scale", o.max_scale, "-", "largest change of scale of a matched shape",
+        Bound::at_least(1));
 }
 
 template <class Visitor>
 void describe(Visitor&& visit, VlfeatOptions& o) {
-  visit("first_octave", o.first_octave, "-", "0: image size, -1: doubled image, 1: halved");
-  visit("peak_threshold", o.peak_threshold, "grey 0..1", "smallest DoG response");
-  visit("edge_threshold", o.edge_threshold, "-", "largest ratio of curvatures");
-  visit("max_features", o.max_features, "count", "strongest features kept per image");
+  visit("first_octave", o.first_octave, "-", "0: image size, -1: doubled image, 1: halved",
+        Bound::from_to(-1, 4));
+  visit("peak_threshold", o.peak_threshold, "grey 0..1", "smallest DoG response",
+        Bound::at_least(0));
+  visit("edge_threshold", o.edge_threshold, "-", "largest ratio of curvatures", Bound::at_least(1));
+  visit("max_features", o.max_features, "count", "strongest features kept per image",
+        Bound::positive());
 }
 
 template <class Visitor>
 void describe(Visitor&& visit, KltOptions& o) {
-  visit("max_tracks", o.max_tracks, "count", "corners followed at a time");
-  visit("levels", o.levels, "count", "levels of the image pyramid");
-  visit("min_distance_px", o.min_distance_px, "px", "between corners");
-  visit("forward_backward_px", o.forward_backward_px, "px", "largest error of the way back");
-  visit("min_zncc", o.min_zncc, "-", "least correlation of aligned patches");
-  visit("max_affine_sigma", o.max_affine_sigma, "-", "largest 1-sigma of an entry of A");
-  visit("drift_zncc", o.drift_zncc, "-", "least correlation with a track's first patch");
-  visit("broken_share", o.broken_share, "-", "share of tracks found below which SIFT looks again");
-  visit("standing_px", o.standing_px, "px", "median shift of near-identical images");
-  visit("static_frames", o.static_frames, "frames", "points at rest for so long are dropped");
+  visit("max_tracks", o.max_tracks, "count", "corners followed at a time", Bound::positive());
+  visit("levels", o.levels, "count", "levels of the image pyramid", Bound::from_to(2, 6));
+  visit("min_distance_px", o.min_distance_px, "px", "between corners", Bound::at_least(1));
+  visit("forward_backward_px", o.forward_backward_px, "px", "largest error of the way back",
+        Bound::positive());
+  visit("min_zncc", o.min_zncc, "-", "least correlation of aligned patches", Bound::between(0, 1));
+  visit("max_affine_sigma", o.max_affine_sigma, "-", "largest 1-sigma of an entry of A",
+        Bound::positive());
+  visit("drift_zncc", o.drift_zncc, "-", "least correlation with a track's first patch",
+        Bound::between(0, 1));
+  visit("broken_share", o.broken_share, "-", "share of tracks found below which SIFT looks again",
+        Bound::from_to(0, 1));
+  visit("standing_px", o.standing_px, "px", "median shift of near-identical images",
+        Bound::at_least(0));
+  visit("static_frames", o.static_frames, "frames", "points at rest for so long are dropped",
+        Bound::positive());
 }
 
 template <class Visitor>
@@ -105,7 +124,8 @@ void describe(Visitor&& visit, MaskOptions& o) {
 
 template <class Visitor>
 void describe(Visitor&& visit, FeatureOptions& o) {
-  visit("extractor", o.extractor, "name", "klt, vlfeat, vlfeat+align or sift");
+  visit("extractor", o.extractor, "name", "how correspondences are found",
+        Bound::one_of("klt, vlfeat, vlfeat+align or sift"));
   visit.section("klt", o.klt);
   visit.section("vlfeat", o.vlfeat);
   visit.section("match", o.match);

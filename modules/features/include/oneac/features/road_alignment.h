@@ -1,5 +1,6 @@
 #pragma once
 
+#include "oneac/base/bound.h"
 #include "oneac/base/image.h"
 #include "oneac/features/ac_extractor.h"
 #include "oneac/geometry/camera.h"
@@ -34,30 +35,41 @@ struct RoadAlignmentOptions {
   double min_rotation_sigma = 0.0003;  ///< [rad] what calibration and rolling shutter leave
   double min_direction_sigma = 0.005;  ///< [rad]
 
+  /// @throws std::invalid_argument naming field, value and bound
   void validate() const;
 };
 
 /// Describes every option to a visitor: visit(key, field, unit, reason).
 template <class Visitor>
 void describe(Visitor&& visit, RoadAlignmentOptions& o) {
-  visit("half_width", o.half_width, "heights", "of the strip of road that is aligned");
-  visit("nearest", o.nearest, "heights", "nearest road that is aligned");
+  visit("half_width", o.half_width, "heights", "of the strip of road that is aligned",
+        Bound::positive());
+  visit("nearest", o.nearest, "heights", "nearest road that is aligned", Bound::positive());
   visit("farthest", o.farthest, "heights", "farthest road that is aligned");
-  visit("search_sigmas", o.search_sigmas, "-", "lengths searched around the prediction");
-  visit("min_correlation", o.min_correlation, "-", "least correlation of a block of road");
-  visit("max_rival", o.max_rival, "-", "evidence of another length that makes it ambiguous");
-  visit("min_blocks", o.min_blocks, "count", "of 15 blocks of road that must agree");
-  visit("min_agreeing", o.min_agreeing, "-", "least share of the evidence that agrees");
-  visit("noise_grey", o.noise_grey, "grey", "1-sigma of a smoothed pixel");
-  visit("unevenness", o.unevenness, "-", "1-sigma of the length by one block of uneven road");
-  visit("heave", o.heave, "heights", "1-sigma of the camera's rise in a step");
-  visit("height_sigma", o.height_sigma, "-", "1-sigma of the camera's height in a step");
-  visit("min_rotation_sigma", o.min_rotation_sigma, "rad", "least 1-sigma of a rotation given");
-  visit("min_direction_sigma", o.min_direction_sigma, "rad", "least 1-sigma of a direction given");
+  visit("search_sigmas", o.search_sigmas, "-", "lengths searched around the prediction",
+        Bound::positive());
+  visit("min_correlation", o.min_correlation, "-", "least correlation of a block of road",
+        Bound::between(0, 1));
+  visit("max_rival", o.max_rival, "-", "evidence of another length that makes it ambiguous",
+        Bound::above_to(0, 1));
+  visit("min_blocks", o.min_blocks, "count", "of 15 blocks of road that must agree",
+        Bound::from_to(1, 15));
+  visit("min_agreeing", o.min_agreeing, "-", "least share of the evidence that agrees",
+        Bound::from_to(0, 1));
+  visit("noise_grey", o.noise_grey, "grey", "1-sigma of a smoothed pixel", Bound::positive());
+  visit("unevenness", o.unevenness, "-", "1-sigma of the length by one block of uneven road",
+        Bound::positive());
+  visit("heave", o.heave, "heights", "1-sigma of the camera's rise in a step", Bound::positive());
+  visit("height_sigma", o.height_sigma, "-", "1-sigma of the camera's height in a step",
+        Bound::at_least(0));
+  visit("min_rotation_sigma", o.min_rotation_sigma, "rad", "least 1-sigma of a rotation given",
+        Bound::positive());
+  visit("min_direction_sigma", o.min_direction_sigma, "rad", "least 1-sigma of a direction given",
+        Bound::positive());
 }
 
-/// An image made ready for aligning roads; keep that of the frame before. A cheap value (shared,
-/// immutable).
+/// An image made ready for aligning roads; keep that of the frame before. A cheap
+/// value (shared, immutable).
 class RoadImage {
  public:
   RoadImage() = default;
@@ -66,6 +78,7 @@ class RoadImage {
   /// A pyramid that is there already.
   explicit RoadImage(std::shared_ptr<const internal::ImagePyramid> pyramid);
 
+  /// No image: default-constructed.
   [[nodiscard]] bool empty() const { return pyramid_ == nullptr; }
   [[nodiscard]] const internal::ImagePyramid& pyramid() const { return *pyramid_; }
 
@@ -109,6 +122,7 @@ enum class RoadStatus {
   kOutOfRange,     ///< the best length lies at the end of what was searched
   kInconsistent,   ///< parts of the strip want different lengths: traffic, or not a plane
 };
+/// "measured", "no_road" and so on, for files.
 [[nodiscard]] const char* to_string(RoadStatus status);
 
 struct RoadAlignment {

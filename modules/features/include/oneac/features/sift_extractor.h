@@ -14,6 +14,7 @@ namespace oneac {
 /// similarity; make_tracker() aligns it afterwards.
 class SiftExtractor : public AcExtractor {
  public:
+  /// @pre options.validate() passes
   explicit SiftExtractor(const FeatureOptions& options) : options_(options) {}
   [[nodiscard]] std::shared_ptr<const FrameFeatures> prepare(const ImageView& image) const override;
   [[nodiscard]] std::vector<AffineCorrespondence> correspond(

@@ -12,6 +12,7 @@ namespace oneac {
 /// The paper's extractor: detect_vlfeat on each image, match_features on the pair.
 class VlfeatExtractor : public AcExtractor {
  public:
+  /// @pre options.validate() passes
   explicit VlfeatExtractor(const FeatureOptions& options) : options_(options) {}
   [[nodiscard]] std::shared_ptr<const FrameFeatures> prepare(const ImageView& image) const override;
   [[nodiscard]] std::vector<AffineCorrespondence> correspond(

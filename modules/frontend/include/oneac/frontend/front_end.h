@@ -8,7 +8,7 @@
 #include "oneac/frontend/front_end_options.h"
 #include "oneac/frontend/tilt_estimator.h"
 #include "oneac/geometry/camera_frame.h"
-#include "oneac/geometry/leveling.h"
+#include "oneac/geometry/levelling.h"
 #include "oneac/initialisers/relative_pose_initialiser.h"
 #include "oneac/observations/observation_intake.h"
 
@@ -109,6 +109,7 @@ class FrontEnd : public mrpt::system::COutputLogger {
   void log_first(PassedOver reason) const;
 
   FrontEndOptions options_;
+  bool stereo_;  ///< metres come from the right images
   std::unique_ptr<AcTracker> tracker_;
   std::unique_ptr<Odometry> odometry_;
   bool started_ = false;

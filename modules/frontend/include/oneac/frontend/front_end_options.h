@@ -1,5 +1,6 @@
 #pragma once
 
+#include "oneac/base/bound.h"
 #include "oneac/features/feature_options.h"
 #include "oneac/frontend/window_options.h"
 #include "oneac/geometry/camera.h"
@@ -25,6 +26,7 @@ struct TiltOptions {
   int prior_steps = 10;    ///< how many steps of driving the given pitch is worth
   int window_steps = 100;  ///< steps whose median direction is used; 10 s at 10 Hz
 
+  /// @throws std::invalid_argument naming field, value and bound
   void validate() const;
 };
 
@@ -52,27 +54,35 @@ struct FrontEndOptions {
   ScaleOptions scale;
   std::size_t seed = 0;  ///< of initialisers that draw random samples; not a key: run.seed is
 
+  /// @throws std::invalid_argument naming field, value and bound
   void validate() const;
 };
 
 template <class Visitor>
 void describe(Visitor&& visit, TiltOptions& o) {
   visit("source", o.source, "name",
-        "log: sensor pose; params: the angles below; imu: gravity; drive");
-  visit("pitch_up_deg", o.pitch_up_deg, "deg", "optical axis above the horizon (source: params)");
-  visit("roll_right_deg", o.roll_right_deg, "deg", "camera leaning to its right (source: params)");
+        "log: sensor pose; params: the angles below; imu: gravity; drive",
+        Bound::one_of("log, params, imu or drive"));
+  visit("pitch_up_deg", o.pitch_up_deg, "deg", "optical axis above the horizon (source: params)",
+        Bound::between(-45, 45));
+  visit("roll_right_deg", o.roll_right_deg, "deg", "camera leaning to its right (source: params)",
+        Bound::between(-45, 45));
   visit("refine", o.refine, "bool",
         "correct pitch and roll by the directions of travel and turning");
-  visit("prior_steps", o.prior_steps, "count", "steps of driving that the given pitch is worth");
-  visit("window_steps", o.window_steps, "count", "steps whose median direction is used");
+  visit("prior_steps", o.prior_steps, "count", "steps of driving that the given pitch is worth",
+        Bound::at_least(0));
+  visit("window_steps", o.window_steps, "count", "steps whose median direction is used",
+        Bound::at_least(1));
 }
 
 template <class Visitor>
 void describe(Visitor&& visit, FrontEndOptions& o) {
   visit("initialiser", o.initialiser, "name", "method of the relative pose");
-  visit("estimator", o.estimator, "name", "consensus, gc_ransac, or default: the method's own");
+  visit("estimator", o.estimator, "name", "default: the method's own",
+        Bound::one_of("default, consensus or gc_ransac"));
   visit("camera_height", o.camera_height, "m", "above the road; 0: from the log if at least 0.5 m");
-  visit("max_hold", o.max_hold, "s", "a step without scale keeps the last speed for so long");
+  visit("max_hold", o.max_hold, "s", "a step without scale keeps the last speed for so long",
+        Bound::at_least(0));
   visit("perspective", o.perspective, "bool", "affinities correct tracked points for perspective");
   visit("refine_enabled", o.refine_enabled, "bool", "two-view bundle adjustment of each pair");
   visit.section("tilt", o.tilt);

@@ -13,6 +13,7 @@ namespace oneac {
 /// so that ten keyframes on one bump do not count as ten measurements.
 class ScaleFilter {
  public:
+  /// @pre options.validate() passes
   explicit ScaleFilter(const ScaleOptions& options);
 
   /// A keyframe more: the scale may have drifted.
@@ -33,6 +34,7 @@ class ScaleFilter {
 
   /// Relative 1σ of the map's scale; infinite before the first measurement.
   [[nodiscard]] double uncertainty() const;
+  /// 1σ is below ScaleOptions::max_uncertainty.
   [[nodiscard]] bool is_metric() const { return uncertainty() <= options_.max_uncertainty; }
 
  private:

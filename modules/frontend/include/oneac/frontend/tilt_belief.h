@@ -1,6 +1,6 @@
 #pragma once
 
-#include "oneac/geometry/leveling.h"
+#include "oneac/geometry/levelling.h"
 
 namespace oneac {
 

@@ -21,18 +21,20 @@ namespace oneac {
 /// the first steps set the pitch.
 class TiltEstimator {
  public:
+  /// @param given  [rad] to start from; with source "drive" only a place to look near
   TiltEstimator(const Tilt& given, const TiltOptions& options);
 
   /// Replaces what is given, e.g. by a longer mean of the accelerometer.
   void set_given(const Tilt& given);
-  /// Learns from a motion of the (tilted) camera. Steps that are not mainly forward say nothing
-  /// about pitch.
+  /// Learns from a motion of the (tilted) camera. Steps that are not mainly forward say
+  /// nothing about pitch.
   void add_step(const RelativePose& T_2_1);
 
+  /// [rad] as believed now.
   [[nodiscard]] const Tilt& tilt() const { return belief_.tilt; }
   [[nodiscard]] const TiltBelief& belief() const { return belief_; }
   /// R_level_cam of the present tilt.
-  [[nodiscard]] Eigen::Matrix3d leveling() const { return leveling_rotation(belief_.tilt); }
+  [[nodiscard]] Eigen::Matrix3d levelling() const { return levelling_rotation(belief_.tilt); }
 
  private:
   void update();
@@ -41,6 +43,7 @@ class TiltEstimator {
 
   Tilt given_;
   TiltOptions options_;
+  bool unknown_;                         ///< source "drive": nothing is given
   std::deque<Eigen::Vector3d> travels_;  ///< unit, forward, in the camera
   std::deque<Eigen::Vector3d> turns_;    ///< [rad] rotation vectors in the camera
   TiltBelief belief_;

@@ -19,8 +19,8 @@ namespace oneac {
 /// Errors of turn and direction are independent from step to step. The relative error of length has
 /// two parts: one that all steps share (the camera's height is the same wrong one throughout), and
 /// the rest, which the map carries on and forgets within some 20 m.
-/// A step without metres is unknown by its own length. Loops and the window make the real ones
-/// smaller.
+/// A step without metres is unknown by its own length.
+/// Loops and the window make the real ones smaller.
 /// @param frames         of a whole drive, settled poses
 /// @param common_sigma   relative 1σ of length that all steps share: ScaleOptions::road_uncertainty
 ///                       for metres by height, else 0

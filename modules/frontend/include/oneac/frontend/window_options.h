@@ -1,5 +1,6 @@
 #pragma once
 
+#include "oneac/base/bound.h"
 #include "oneac/refine/sliding_window.h"
 
 #include <string>
@@ -20,27 +21,35 @@ struct WindowOptions {
                              ///< what the window of a usual drive holds
   WindowRefineOptions refine;
 
+  /// @throws std::invalid_argument naming field, value and bound
   void validate() const;
 };
 
 template <class Visitor>
 void describe(Visitor&& visit, WindowOptions& o) {
   visit("enabled", o.enabled, "bool", "keyframes, local map and sliding-window adjustment");
-  visit("size", o.size, "keyframes", "of the window");
-  visit("fixed", o.fixed, "keyframes", "the oldest of the window, which hold the gauge");
-  visit("min_parallax_deg", o.min_parallax_deg, "deg", "median parallax that makes a keyframe");
-  visit("min_shared", o.min_shared, "-", "share of the last keyframe's tracks below which ...");
-  visit("max_rotation_deg", o.max_rotation_deg, "deg", "rotation above which ...");
-  visit("max_seconds", o.max_seconds, "s", "time after which a moving camera makes a keyframe");
-  visit("min_carry", o.min_carry, "count", "landmarks that carry the length of a step");
-  visit("max_landmarks", o.max_landmarks, "count", "in one adjustment, longest tracks first");
+  visit("size", o.size, "keyframes", "of the window", Bound::at_least(3));
+  visit("fixed", o.fixed, "keyframes", "the oldest of the window, which hold the gauge",
+        Bound::at_least(1));
+  visit("min_parallax_deg", o.min_parallax_deg, "deg", "median parallax that makes a keyframe",
+        Bound::positive());
+  visit("min_shared", o.min_shared, "-", "share of the last keyframe's tracks below which ...",
+        Bound::from_to(0, 1));
+  visit("max_rotation_deg", o.max_rotation_deg, "deg", "rotation above which ...",
+        Bound::positive());
+  visit("max_seconds", o.max_seconds, "s", "time after which a moving camera makes a keyframe",
+        Bound::positive());
+  visit("min_carry", o.min_carry, "count", "landmarks that carry the length of a step",
+        Bound::at_least(3));
+  visit("max_landmarks", o.max_landmarks, "count", "in one adjustment, longest tracks first",
+        Bound::at_least(20));
   visit.section("refine", o.refine);
 }
 
 /// Where metres come from. validate() throws std::invalid_argument.
 struct ScaleOptions {
-  /// "height": road and camera height; "stereo": the right images' depths; "gps": speeds given to
-  /// FrontEnd; "none"
+  /// "height": road and camera height; "stereo": the right images' depths; "gps": speeds given
+  /// to FrontEnd; "none"
   std::string source = "height";
   double map_drift = 0.003;        ///< [-] 1σ of the map's scale gained from keyframe to keyframe,
                                    ///< beside that of the lengths its landmarks carry
@@ -53,21 +62,28 @@ struct ScaleOptions {
   double acceleration = 3.0;       ///< [m/s²] 1σ of what drivers do: a firm brake is 3 to 4
   double max_acceleration = 12.0;  ///< [m/s²] no tyre on a road gives more: µ g with µ = 1.2
 
+  /// @throws std::invalid_argument naming field, value and bound
   void validate() const;
 };
 
 template <class Visitor>
 void describe(Visitor&& visit, ScaleOptions& o) {
   visit("source", o.source, "name",
-        "height: road and camera height; stereo: right images; gps: speed; none");
+        "height: road and camera height; stereo: right images; gps: speed; none",
+        Bound::one_of("height, stereo, gps or none"));
   visit("map_drift", o.map_drift, "-",
-        "1-sigma of the map's scale, keyframe to keyframe, beside its landmarks' own");
+        "1-sigma of the map's scale, keyframe to keyframe, beside its landmarks' own",
+        Bound::positive());
   visit("road_uncertainty", o.road_uncertainty, "-",
-        "1-sigma of the height above the road ahead, the same for metres");
-  visit("max_uncertainty", o.max_uncertainty, "-", "relative 1-sigma that counts as metric");
-  visit("outlier_sigmas", o.outlier_sigmas, "sigma", "measurements beyond it are left out");
-  visit("acceleration", o.acceleration, "m/s^2", "1-sigma of the vehicle's acceleration");
-  visit("max_acceleration", o.max_acceleration, "m/s^2", "lengths that need more are not believed");
+        "1-sigma of the height above the road ahead, the same for metres", Bound::at_least(0));
+  visit("max_uncertainty", o.max_uncertainty, "-", "relative 1-sigma that counts as metric",
+        Bound::positive());
+  visit("outlier_sigmas", o.outlier_sigmas, "sigma", "measurements beyond it are left out",
+        Bound::positive());
+  visit("acceleration", o.acceleration, "m/s^2", "1-sigma of the vehicle's acceleration",
+        Bound::positive());
+  visit("max_acceleration", o.max_acceleration, "m/s^2", "lengths that need more are not believed",
+        Bound::positive());
 }
 
 }  // namespace oneac

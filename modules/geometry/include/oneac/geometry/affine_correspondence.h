@@ -14,6 +14,7 @@ struct AffineCorrespondence {
   Eigen::Vector2d x2 = Eigen::Vector2d::Zero();     ///< second view [-]
   Eigen::Matrix2d A = Eigen::Matrix2d::Identity();  ///< ∂x2/∂x1 [-]
 
+  /// Neither NaN nor Inf in points and affinity.
   [[nodiscard]] bool is_finite() const { return x1.allFinite() && x2.allFinite() && A.allFinite(); }
 };
 

@@ -18,6 +18,7 @@ struct PinholeCamera {
   double cy = 0.0;                     ///< [px]
   std::array<double, 5> distortion{};  ///< k1, k2, p1, p2, k3 [-]; all zero: rectified
 
+  /// Any coefficient is not 0.
   [[nodiscard]] bool is_distorted() const;
   /// Geometric mean of fx and fy [px]: what turns normalised distances into pixels.
   [[nodiscard]] double focal_px() const;

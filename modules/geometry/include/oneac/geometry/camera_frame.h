@@ -20,8 +20,8 @@ struct CameraFrame {
   PinholeCamera camera;     ///< of `image`: no distortion left
   GreyImage right;          ///< of a rectified pair, when asked for and there: same `camera`, ...
   double baseline_m = 0.0;  ///< ... so far along the X axis [m]; 0: no pair
-  /// Camera (optical: X right, Y down, Z forward) in the vehicle frame (X forward, Y left, Z up)
-  /// [m].
+  /// Camera (optical: X right, Y down, Z forward) in the vehicle frame (X forward,
+  /// Y left, Z up) [m].
   Eigen::Isometry3d T_vehicle_cam = forward_looking_mount();
   double decode_ms = 0.0;  ///< CPU time of reading, decoding, undistorting [ms]
 

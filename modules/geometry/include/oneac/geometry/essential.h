@@ -17,9 +17,9 @@ namespace oneac {
 /// @throws std::invalid_argument when E is not finite
 [[nodiscard]] std::array<RelativePose, 4> decompose_essential(const Eigen::Matrix3d& E);
 
-/// Signed Sampson distance: first-order geometric error of a point pair against E, in the units of
-/// the normalised image plane; times the focal length it is pixels. Zero when both epipolar lines
-/// are undefined.
+/// Signed Sampson distance: first-order geometric error of a point pair against E, in the units
+/// of the normalised image plane; times the focal length it is pixels. Zero when both epipolar
+/// lines are undefined.
 /// Source: Hartley and Zisserman, Multiple View Geometry, eq. (11.9).
 [[nodiscard]] double sampson_distance(const Eigen::Matrix3d& E, const Eigen::Vector2d& x1,
                                       const Eigen::Vector2d& x2);

@@ -18,8 +18,8 @@ struct Plane {
   double d = 1.0;  ///< [length of the pose's t]
 };
 
-/// H = R + t nᵀ / d, which maps x1 to x2 for points on the plane   [Gal 2020, eq. (1), sign of n·X
-/// = d].
+/// H = R + t nᵀ / d, which maps x1 to x2 for points on the plane
+/// [Gal 2020, eq. (1), with the sign of n·X = d].
 /// @pre d ≠ 0
 [[nodiscard]] Eigen::Matrix3d plane_induced_homography(const RelativePose& T_2_1,
                                                        const Plane& plane);

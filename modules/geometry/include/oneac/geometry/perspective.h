@@ -17,8 +17,7 @@ namespace oneac {
 /// @param ac  normalised
 /// @param T_2_1  t of any length
 /// @param affine_sigma  1σ of an entry of A [-]: against it g is held near 0, a plane that faces
-/// the
-///                      first camera, where the parallax says little
+///                      the first camera, where the parallax says little
 /// @degenerate rays parallel, point behind a camera: empty
 [[nodiscard]] std::optional<Eigen::Vector2d> perspective_of(const AffineCorrespondence& ac,
                                                             const RelativePose& T_2_1,

@@ -12,6 +12,7 @@ struct RelativePose {
   Eigen::Matrix3d R = Eigen::Matrix3d::Identity();
   Eigen::Vector3d t = Eigen::Vector3d::Zero();
 
+  /// X2 = R X1 + t.
   [[nodiscard]] Eigen::Vector3d operator*(const Eigen::Vector3d& X1) const { return R * X1 + t; }
   [[nodiscard]] RelativePose inverse() const { return {R.transpose(), -(R.transpose() * t)}; }
   [[nodiscard]] bool is_finite() const { return R.allFinite() && t.allFinite(); }

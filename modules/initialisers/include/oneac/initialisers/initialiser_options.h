@@ -1,5 +1,6 @@
 #pragma once
 
+#include "oneac/base/bound.h"
 #include "oneac/robust/gc_ransac.h"
 #include "oneac/robust/one_ac_consensus.h"
 
@@ -13,6 +14,7 @@ struct InitialiserOptions {
   ConsensusOptions consensus;
   GcRansacOptions gc_ransac;
 
+  /// @throws std::invalid_argument naming field, value and bound
   void validate() const;
   /// As a YAML document, for RelativePoseInitialiser::configure.
   [[nodiscard]] std::string to_yaml() const;
@@ -20,7 +22,8 @@ struct InitialiserOptions {
 
 template <class Visitor>
 void describe(Visitor&& visit, InitialiserOptions& o) {
-  visit("estimator", o.estimator, "name", "consensus, gc_ransac, or default: the method's own");
+  visit("estimator", o.estimator, "name", "default: the method's own",
+        Bound::one_of("default, consensus or gc_ransac"));
   visit.section("consensus", o.consensus);
   visit.section("gc_ransac", o.gc_ransac);
 }

@@ -25,8 +25,8 @@ struct InitialiserInput {
   MotionPrior prior = {};  ///< what inertia and sensors let expect; default: nothing
 };
 
-/// What it answers: status, pose in the camera frame (|t| = 1, or 0 when the camera stood),
-/// inliers.
+/// What it answers: status, pose in the camera frame (|t| = 1, or 0 when the
+/// camera stood), inliers.
 using InitialiserResult = RobustResult;
 
 /// A relative-pose method as an MRPT class: made by name through MRPT's class factory, configured

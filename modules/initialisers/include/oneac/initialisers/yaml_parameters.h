@@ -12,8 +12,8 @@ namespace oneac {
 
 /// Sets the table's parameters from a YAML map of sections and values.
 /// @param origin  named in messages, e.g. the file
-/// @throws InputError for unknown keys (nearest suggested), wrong types and anything but maps of
-/// scalars
+/// @throws InputError for unknown keys (nearest suggested), wrong types and anything
+///         but maps of scalars
 void apply_yaml(const mrpt::containers::yaml& document, const std::string& origin,
                 ParameterTable& table);
 

@@ -9,7 +9,7 @@
 //     apps/oneac, cmake/OneacInstall.cmake (names of the exported packages), OneacPlugin.cmake.
 //  2. CImage holds no OpenCV matrix: pixels_of() below. Check there the names of depth and stride,
 //     and the order of the channels of colour images: OpenCV's is blue first.
-//  3. apps/oneac/run_gui.cpp: mrpt::opengl's scene objects are mrpt::viz's, in headers
+//  3. apps/oneac/run/run_gui.cpp: mrpt::opengl's scene objects are mrpt::viz's, in headers
 //     mrpt/viz/…, COpenGLScene is Scene. Without mrpt_gui the program builds without --gui.
 //  4. CRawlog's entry types are a scoped enum; getSensorPose() and the like return by value, with
 //     the old forms deprecated: warnings, and so errors in our presets. Library code uses neither.

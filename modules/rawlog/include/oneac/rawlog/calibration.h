@@ -12,12 +12,11 @@ namespace oneac {
 /// - a KITTI calib.txt: lines "P0: " and twelve numbers; the image size is not in it (0).
 ///
 /// @param file_and_section  FILE or FILE:SECTION. Without a section: the only one there is, else
-/// the
-///                          only one named after the preferred side, P0 in a calib.txt
+///                          the only one named after the preferred side, P0 in a calib.txt
 /// @param preferred_side    "left", "right" or ""
-/// @throws InputError when there is no such file, no such section (those that exist are listed),
-/// the
-///         choice is open, a value is missing or not a number, or the lens model is not plumb-bob
+/// @throws InputError when there is no such file, no such section (those that exist are
+///         listed), the choice is open, a value is missing or not a number, or the lens
+///         model is not plumb-bob
 [[nodiscard]] PinholeCamera load_calibration(const std::string& file_and_section,
                                              const std::string& preferred_side);
 

@@ -46,10 +46,10 @@ struct RecordedDrive {
   std::filesystem::path poses;
 };
 
-/// Writes a drive in the layout of the Málaga dataset: `simulated.rawlog` (images as CAMERA1, GPS
-/// and IMU in time order), `Images/img_CAMERA1_<Unix time>[_left|_right].jpg`, and `poses.txt`
-/// (KITTI format: one 3×4 row per frame, camera with X right, Y down, Z forward, first frame =
-/// identity).
+/// Writes a drive in the layout of the Málaga dataset: `simulated.rawlog` (images as CAMERA1,
+/// GPS and IMU in time order), `Images/img_CAMERA1_<Unix time>[_left|_right].jpg`, and
+/// `poses.txt` (KITTI format: one 3×4 row per frame, camera with X right, Y down, Z forward,
+/// first frame = identity).
 /// @throws InputError when the folder cannot be written to, OutputError when a file cannot,
 ///         std::invalid_argument when the vectors differ in length
 RecordedDrive record_drive(const DriveRecording& drive, const std::filesystem::path& folder);

@@ -62,12 +62,13 @@ class RawlogSource {
   /// Reads on to the next selected image that exists. Not thread-safe.
   [[nodiscard]] std::optional<FrameTicket> next();
   /// Decodes, converts to grey, undistorts when distorted (map computed once). Thread-safe.
-  /// @throws InputError naming the image when it cannot be decoded or has another size than the
-  /// calibration
+  /// @throws InputError naming the image when it cannot be decoded or has another size
+  ///         than the calibration
   [[nodiscard]] CameraFrame load(const FrameTicket& ticket) const;
   /// Reads on (without images) up to two seconds past the last image, so that the reference covers
   /// the drive; then `report` is complete. Call when done.
   void finish();
+  /// What was read, missing and passed over so far.
   [[nodiscard]] const SourceReport& report() const;
   /// Share of the file read so far, 0 … 1, for a progress bar.
   [[nodiscard]] double progress() const;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "oneac/base/bound.h"
 #include "oneac/geometry/relative_pose.h"
 
 #include <Eigen/Core>
@@ -23,21 +24,29 @@ struct WindowRefineOptions {
   double travel_elevation_deg = 3.0;  ///< [deg] 1σ of the elevation of travel
   int max_iterations = 10;            ///< bounds the time: a warm start needs three to six
 
+  /// Affinities are in the cost: solver "ceres+affine".
   [[nodiscard]] bool affine_terms() const { return solver == "ceres+affine"; }
+  /// @throws std::invalid_argument naming field, value and bound
   void validate() const;
 };
 
 template <class Visitor>
 void describe(Visitor&& visit, WindowRefineOptions& o) {
-  visit("point_noise_px", o.point_noise_px, "px", "1 sigma of a tracked point");
-  visit("affine_noise", o.affine_noise, "-", "1 sigma of an entry of the affinity");
-  visit("loss_sigmas", o.loss_sigmas, "sigma", "scale of the robust (Cauchy) loss");
-  visit("affine_gate_chi2", o.affine_gate_chi2, "-", "affinities beyond it are left out");
-  visit("solver", o.solver, "name", "fast, ceres (the same cost) or ceres+affine (affinities too)");
-  visit("suspension_deg", o.suspension_deg, "deg", "1-sigma of roll and pitch between keyframes");
-  visit("travel_elevation_deg", o.travel_elevation_deg, "deg",
-        "1-sigma of the elevation of travel");
-  visit("max_iterations", o.max_iterations, "count", "steps of the optimiser");
+  visit("point_noise_px", o.point_noise_px, "px", "1 sigma of a tracked point",
+        Bound::positive_and_finite());
+  visit("affine_noise", o.affine_noise, "-", "1 sigma of an entry of the affinity",
+        Bound::positive_and_finite());
+  visit("loss_sigmas", o.loss_sigmas, "sigma", "scale of the robust (Cauchy) loss",
+        Bound::positive_and_finite());
+  visit("affine_gate_chi2", o.affine_gate_chi2, "-", "affinities beyond it are left out",
+        Bound::positive_and_finite());
+  visit("solver", o.solver, "name", "fast, ceres (the same cost) or ceres+affine (affinities too)",
+        Bound::one_of("fast, ceres or ceres+affine"));
+  visit("suspension_deg", o.suspension_deg, "deg", "1-sigma of roll and pitch between keyframes",
+        Bound::positive_and_finite());
+  visit("travel_elevation_deg", o.travel_elevation_deg, "deg", "1-sigma of the elevation of travel",
+        Bound::positive_and_finite());
+  visit("max_iterations", o.max_iterations, "count", "steps of the optimiser", Bound::at_least(1));
 }
 
 /// A small planar patch of the scene: a point and the gradient of its inverse depth, all in the
@@ -92,11 +101,10 @@ struct WindowRefineResult {
 /// Cauchy loss, and a planar-motion prior between consecutive views as soft as the suspension.
 ///
 /// Gauge: views marked `fixed` keep their poses; two of them hold position, orientation and scale.
-/// With one, scale is left to the damping of the optimiser: it stays near the start.
-/// An observation is affine-consistent when its A agrees within its noise with the affinity that
-/// poses and patch induce; patches get their gradient by least squares over all their affinities.
-/// Landmarks are eliminated (Schur); with affine terms Ceres does it. One thread, no clock:
-/// deterministic.
+/// With one, scale is left to the damping of the optimiser: it stays near the start. An observation
+/// is affine-consistent when its A agrees within its noise with the affinity that poses and patch
+/// induce; patches get their gradient by least squares over all their affinities. Landmarks are
+/// eliminated (Schur); with affine terms Ceres does it. One thread, no clock: deterministic.
 /// @throws std::invalid_argument on invalid options or an index out of range
 [[nodiscard]] WindowRefineResult refine_window(SlidingWindow& window,
                                                const WindowRefineOptions& options);

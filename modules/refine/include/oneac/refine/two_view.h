@@ -1,5 +1,6 @@
 #pragma once
 
+#include "oneac/base/bound.h"
 #include "oneac/geometry/affine_correspondence.h"
 #include "oneac/geometry/relative_pose.h"
 
@@ -23,20 +24,26 @@ struct RefineOptions {
   int max_iterations = 30;  ///< Levenberg–Marquardt steps: six on average, twelve with 20 inliers
   int min_inliers = 8;      ///< fewer leave too little redundancy over the five degrees of freedom
 
+  /// @throws std::invalid_argument naming field, value and bound
   void validate() const;
 };
 
 /// Describes every option to a visitor: visit(key, field, unit, reason).
 template <class Visitor>
 void describe(Visitor&& visit, RefineOptions& o) {
-  visit("point_noise_px", o.point_noise_px, "px", "1 sigma of an inlier's epipolar distance");
-  visit("affine_noise", o.affine_noise, "-", "1 sigma of an entry of the affinity");
-  visit("loss_sigmas", o.loss_sigmas, "sigma", "scale of the robust (Cauchy) loss");
+  visit("point_noise_px", o.point_noise_px, "px", "1 sigma of an inlier's epipolar distance",
+        Bound::positive_and_finite());
+  visit("affine_noise", o.affine_noise, "-", "1 sigma of an entry of the affinity",
+        Bound::positive_and_finite());
+  visit("loss_sigmas", o.loss_sigmas, "sigma", "scale of the robust (Cauchy) loss",
+        Bound::positive_and_finite());
   visit("affine_terms_below", o.affine_terms_below, "inliers",
-        "pairs with fewer use affinities beside points; 0: never");
-  visit("affine_gate_sigmas", o.affine_gate_sigmas, "sigma", "affinities beyond it are left out");
-  visit("max_iterations", o.max_iterations, "count", "steps of the optimiser");
-  visit("min_inliers", o.min_inliers, "count", "a pair with fewer is not refined");
+        "pairs with fewer use affinities beside points; 0: never", Bound::at_least(0));
+  visit("affine_gate_sigmas", o.affine_gate_sigmas, "sigma", "affinities beyond it are left out",
+        Bound::at_least(0));
+  visit("max_iterations", o.max_iterations, "count", "steps of the optimiser", Bound::at_least(1));
+  visit("min_inliers", o.min_inliers, "count", "a pair with fewer is not refined",
+        Bound::at_least(5));
 }
 
 /// How a refinement ended.
@@ -48,6 +55,7 @@ enum class RefineStatus {
   kNotFinite,      ///< NaN, Inf or overflow in the start or in an inlier
   kFailed,         ///< the optimiser found no valid step
 };
+/// "converged", "too_few" and so on, for files.
 [[nodiscard]] const char* to_string(RefineStatus status);
 
 struct RefineResult {
@@ -63,6 +71,7 @@ struct RefineResult {
   /// scatter of the residuals at the result. Rank five: nothing is known along t. Zero if unusable.
   Eigen::Matrix<double, 6, 6> information = Eigen::Matrix<double, 6, 6>::Zero();
 
+  /// The pose is refined: kConverged or kStopped.
   [[nodiscard]] bool usable() const {
     return status == RefineStatus::kConverged || status == RefineStatus::kStopped;
   }
@@ -84,8 +93,8 @@ struct RefineResult {
 /// @param start    X2 = R X1 + t; the length of t is kept, whether metric or one
 /// @param focal_px turns point_noise_px into normalised units
 /// @throws std::invalid_argument on invalid options, focal_px ≤ 0 or flags of another number
-/// @cost   1 to 2 ms for 600 inliers, twice that with affinities; one thread, deterministic, prints
-/// nothing
+/// @cost   1 to 2 ms for 600 inliers, twice that with affinities; one thread,
+///         deterministic, prints nothing
 [[nodiscard]] RefineResult refine_two_view(const std::vector<AffineCorrespondence>& acs,
                                            const std::vector<bool>& inliers,
                                            const RelativePose& start, double focal_px,

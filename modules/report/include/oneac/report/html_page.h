@@ -23,7 +23,9 @@ class HtmlPage {
   /// Texts are escaped here and below; only `svg` elements go in as they are.
   HtmlPage(const std::string& title, const std::string& subtitle);
 
+  /// Opens a section.
   void heading(const std::string& text);
+  /// A remark in grey.
   void paragraph(const std::string& text);
   /// A sentence that must not be overlooked.
   void warning(const std::string& text);
@@ -35,17 +37,21 @@ class HtmlPage {
   void table(const Table& table);
   /// Figures beside each other where the window is wide enough.
   void figures(const std::vector<std::string>& svgs);
+  /// A figure with a caption.
   void picture(const std::string& caption, const std::string& svg);
   /// What tells the series of plots without a legend of their own apart: a label for each, with a
   /// box that shows and hides it. @pre once on a page
   void legend(const std::vector<std::string>& labels);
   /// Tables that follow stand beside each other until the group ends.
   void begin_group();
+  /// Ends what begin_group() began.
   void end_group();
   /// What follows is folded away under a summary until the end.
   void begin_details(const std::string& summary);
+  /// Ends what begin_details() began.
   void end_details();
 
+  /// The whole file.
   [[nodiscard]] std::string text() const;
 
  private:

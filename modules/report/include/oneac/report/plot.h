@@ -7,10 +7,10 @@ namespace oneac {
 
 /// How a series is drawn.
 enum class Pen {
-  line,
-  dots,     ///< samples of a slow sensor
-  rings,    ///< hollow and below every line, so that they hide none
-  markers,  ///< a line with a shape at each point, another for each series
+  kLine,
+  kDots,     ///< samples of a slow sensor
+  kRings,    ///< hollow and below every line, so that they hide none
+  kMarkers,  ///< a line with a shape at each point, another for each series
 };
 
 /// A quantity over the abscissa, in its order. A value that is not finite leaves a gap.
@@ -18,13 +18,13 @@ struct PlotSeries {
   std::string label;
   std::vector<double> x;
   std::vector<double> y;
-  Pen pen = Pen::line;
+  Pen pen = Pen::kLine;
 };
 
 enum class Axes {
-  linear,
-  decades,  ///< x is log10 of what its ticks say
-  plan,     ///< seen from above: the same scale in both directions, each line's first point marked
+  kLinear,
+  kDecades,  ///< x is log10 of what its ticks say
+  kPlan,     ///< seen from above: the same scale in both directions, each line's first point marked
 };
 
 /// Series over common axes.
@@ -34,7 +34,7 @@ struct Plot {
   std::string y_label;  ///< with unit
   std::vector<PlotSeries> series;
   bool from_zero = false;  ///< the ordinate starts at zero
-  Axes axes = Axes::linear;
+  Axes axes = Axes::kLinear;
   std::string subtitle{};
   bool legend = true;
   double height = 300.0;  ///< [px] of 540 px of width; a plan makes its own
@@ -49,8 +49,8 @@ struct Plot {
 /// The same as an SVG document of 720 px of width, dark on white. @throws as plot_svg
 [[nodiscard]] std::string plot_document(const Plot& plot);
 
-/// Distance of ticks that gives about `count` of them over `range` > 0: 1, 2 or 5 times a power of
-/// ten.
+/// Distance of ticks that gives about `count` of them over `range` > 0: 1, 2 or 5
+/// times a power of ten.
 [[nodiscard]] double tick_step(double range, int count);
 
 }  // namespace oneac

@@ -7,10 +7,10 @@
 namespace oneac {
 
 struct Cell {
-  enum class Mark { none, best, bad };
+  enum class Mark { kNone, kBest, kBad };
 
   std::string text;
-  Mark mark = Mark::none;
+  Mark mark = Mark::kNone;
 };
 
 /// Rows of cells under a head, which may be empty.
@@ -25,8 +25,8 @@ struct Table {
 [[nodiscard]] std::string table_html(const Table& table);
 /// A table of Markdown without its caption; what is marked is bold.
 [[nodiscard]] std::string table_md(const Table& table);
-/// A line of a CSV file with its end; a cell with a comma, a quote or a line break is quoted as in
-/// RFC 4180.
+/// A line of a CSV file with its end; a cell with a comma, a quote or a line break is
+/// quoted as in RFC 4180.
 [[nodiscard]] std::string csv_line(const std::vector<std::string>& cells);
 
 }  // namespace oneac

@@ -21,7 +21,7 @@ struct DegeneracyBounds {
 /// The answer of a camera that stood, R = I (kNoMotion), where hardly anything moved and what did
 /// is no evidence of a translation (motion_evidence.h). Empty otherwise.
 /// @pre acs is not empty and finite
-[[nodiscard]] std::optional<RobustResult> standing(AcSpan acs, const DegeneracyBounds& bounds);
+[[nodiscard]] std::optional<RobustResult> find_standing(AcSpan acs, const DegeneracyBounds& bounds);
 
 /// Whether the camera stayed where it was.
 struct MotionDecision {
@@ -39,11 +39,12 @@ struct MotionDecision {
 
 /// Completes a candidate, unit t of either sign: polished in double precision, inliers, cost, sign
 /// by cheirality, covariance. Status and statistics are left as they are.
-void conclude(const RelativePose& candidate, AcSpan acs, double threshold, RobustResult& result);
+void complete_result(const RelativePose& candidate, AcSpan acs, double threshold,
+                     RobustResult& result);
 
 /// Sets kOnePlane when all inliers of an ok result lie on a plane, and takes that of the two poses
 /// it admits which is nearer to a vehicle's planar motion.
-void settle_one_plane(AcSpan acs, const Eigen::Matrix3d& R_level_cam, double threshold,
-                      RobustResult& result);
+void resolve_one_plane(AcSpan acs, const Eigen::Matrix3d& R_level_cam, double threshold,
+                       RobustResult& result);
 
 }  // namespace oneac

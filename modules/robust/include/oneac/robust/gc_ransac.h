@@ -1,5 +1,6 @@
 #pragma once
 
+#include "oneac/base/bound.h"
 #include "oneac/robust/robust_result.h"
 #include "oneac/solvers/span.h"
 
@@ -24,21 +25,29 @@ struct GcRansacOptions {
   std::string lo_model = "both";    ///< refits: 8pc | polish (five degrees of freedom) | both
   int min_inliers = 15;             ///< fewer support nothing: five unknowns, three times over
 
+  /// @throws std::invalid_argument naming field, value and bound
   void validate() const;
 };
 
 template <class Visitor>
 void describe(Visitor&& visit, GcRansacOptions& o) {
-  visit("threshold_px", o.threshold_px, "px", "Sampson inlier bound");
-  visit("confidence", o.confidence, "-", "probability of a sample without outlier");
-  visit("max_iterations", o.max_iterations, "count", "minimal samples at most");
-  visit("min_iterations", o.min_iterations, "count", "minimal samples at least");
-  visit("sampler", o.sampler, "name", "uniform or prosac (best correspondences first)");
-  visit("neighbourhood_cells", o.neighbourhood_cells, "count", "grid cells per image axis");
-  visit("coherence", o.coherence, "-", "weight of the neighbours in the graph cut; 0: none");
-  visit("lo_iterations", o.lo_iterations, "count", "refits of one local optimisation; 0: none");
-  visit("lo_model", o.lo_model, "name", "refits: 8pc, polish or both");
-  visit("min_inliers", o.min_inliers, "count", "a pose with fewer is refused");
+  visit("threshold_px", o.threshold_px, "px", "Sampson inlier bound", Bound::positive());
+  visit("confidence", o.confidence, "-", "probability of a sample without outlier",
+        Bound::between(0, 1));
+  visit("max_iterations", o.max_iterations, "count", "minimal samples at most", Bound::at_least(1));
+  visit("min_iterations", o.min_iterations, "count", "minimal samples at least",
+        Bound::at_least(1));
+  visit("sampler", o.sampler, "name", "uniform or prosac (best correspondences first)",
+        Bound::one_of("uniform or prosac"));
+  visit("neighbourhood_cells", o.neighbourhood_cells, "count", "grid cells per image axis",
+        Bound::from_to(1, 1000));
+  visit("coherence", o.coherence, "-", "weight of the neighbours in the graph cut; 0: none",
+        Bound::from_to(0, 1e6));
+  visit("lo_iterations", o.lo_iterations, "count", "refits of one local optimisation; 0: none",
+        Bound::at_least(0));
+  visit("lo_model", o.lo_model, "name", "refits: 8pc, polish or both",
+        Bound::one_of("both, polish or 8pc"));
+  visit("min_inliers", o.min_inliers, "count", "a pose with fewer is refused", Bound::at_least(5));
 }
 
 /// Relative pose by Graph-Cut RANSAC (Barath and Matas, CVPR 2018) with any minimal solver inside.
@@ -49,7 +58,7 @@ void describe(Visitor&& visit, GcRansacOptions& o) {
 /// the sign of t by cheirality. Same input, seed and options give the same bits.
 /// @param acs          normalised correspondences of the (tilted) camera; best first for "prosac".
 ///                     Those that are not finite take no part
-/// @param R_level_cam  removes the camera's tilt (geometry/leveling.h) for planar solvers
+/// @param R_level_cam  removes the camera's tilt (geometry/levelling.h) for planar solvers
 /// @param focal_px     what turns threshold_px into normalised units [px]
 /// @return             kOk or kTooFew (identity); standing cameras and planes are not looked for
 /// @throws std::invalid_argument for options or a focal length out of bounds

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "oneac/base/bound.h"
 #include "oneac/geometry/relative_pose.h"
 #include "oneac/solvers/span.h"
 
@@ -22,20 +23,27 @@ struct GroundScaleOptions {
                                    ///< camera: a slope that wanders by 1° in 100 m, over 10 m
   double cross_fall_deg = 1.4;     ///< [deg] 1σ of its slope to the side: roads fall by 2.5 %
 
+  /// @throws std::invalid_argument naming field, value and bound
   void validate() const;
 };
 
 template <class Visitor>
 void describe(Visitor&& visit, GroundScaleOptions& o) {
-  visit("max_distance", o.max_distance, "camera heights", "farther road is not used");
-  visit("max_side", o.max_side, "camera heights", "road farther to the side is not used");
-  visit("affine_tolerance", o.affine_tolerance, "-", "affinity error of a ground correspondence");
-  visit("bandwidth", o.bandwidth, "-", "relative spread of heights on one plane");
-  visit("min_support", o.min_support, "count", "ground correspondences needed");
-  visit("max_uncertainty", o.max_uncertainty, "-", "relative 1-sigma of a metric length");
+  visit("max_distance", o.max_distance, "camera heights", "farther road is not used",
+        Bound::positive());
+  visit("max_side", o.max_side, "camera heights", "road farther to the side is not used",
+        Bound::positive());
+  visit("affine_tolerance", o.affine_tolerance, "-", "affinity error of a ground correspondence",
+        Bound::positive());
+  visit("bandwidth", o.bandwidth, "-", "relative spread of heights on one plane",
+        Bound::positive());
+  visit("min_support", o.min_support, "count", "ground correspondences needed", Bound::at_least(1));
+  visit("max_uncertainty", o.max_uncertainty, "-", "relative 1-sigma of a metric length",
+        Bound::positive());
   visit("plane_tilt_deg", o.plane_tilt_deg, "deg",
-        "1-sigma of the road's slope ahead against the levelled camera");
-  visit("cross_fall_deg", o.cross_fall_deg, "deg", "1-sigma of the road's slope to the side");
+        "1-sigma of the road's slope ahead against the levelled camera", Bound::positive());
+  visit("cross_fall_deg", o.cross_fall_deg, "deg", "1-sigma of the road's slope to the side",
+        Bound::positive());
 }
 
 /// What the road says about the length of one step.

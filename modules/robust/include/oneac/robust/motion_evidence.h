@@ -16,10 +16,11 @@ enum class MotionModel {
   kRotation,     ///< x2 = π(R x1)
   kTranslation,  ///< an epipolar geometry with depths in front of the camera
 };
+/// "still", "rotation" or "translation".
 [[nodiscard]] const char* to_string(MotionModel model);
 
-/// What is known of the motion before the points are looked at: inertia, sensors. Defaults:
-/// nothing.
+/// What is known of the motion before the points are looked at: inertia,
+/// sensors. Defaults: nothing.
 struct MotionPrior {
   static constexpr double kUnknown = std::numeric_limits<double>::infinity();
 
@@ -28,11 +29,12 @@ struct MotionPrior {
   double length = 0.0;                                  ///< expected |t| [camera heights]
   double length_sigma = kUnknown;                       ///< 1σ of it [camera heights]
 
+  /// @throws std::invalid_argument naming field, value and bound
   void validate() const;
 };
 
-/// Costs in nats, so that sums of them are log-likelihoods. validate() throws
-/// std::invalid_argument.
+/// Costs in nats, so that sums of them are log-likelihoods.
+/// validate() throws std::invalid_argument.
 struct MotionEvidenceOptions {
   double sigma = 3.5e-4;       ///< [-] 1σ of a coordinate where a point brings none of its own
   double affine_sigma = 0.08;  ///< [-] 1σ of det A of a tracked patch
@@ -45,6 +47,7 @@ struct MotionEvidenceOptions {
                                ///< and not the vehicle ahead: six metres at a height of 1.5 m
   double decided = 3.0;        ///< log-odds needed for a translation: 20 to 1
 
+  /// @throws std::invalid_argument naming field, value and bound
   void validate() const;
 };
 

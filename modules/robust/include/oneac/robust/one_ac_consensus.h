@@ -1,5 +1,6 @@
 #pragma once
 
+#include "oneac/base/bound.h"
 #include "oneac/robust/robust_result.h"
 #include "oneac/robust/solver_pool.h"
 #include "oneac/solvers/span.h"
@@ -36,6 +37,7 @@ struct ConsensusOptions {
   double standing_px =
       0.35;  ///< [px] median shift beside a rotation that is noise: the camera stands
 
+  /// @throws std::invalid_argument naming field, value and bound
   void validate() const;
 };
 
@@ -44,21 +46,31 @@ void describe(Visitor&& visit, ConsensusOptions& o) {
   for (std::size_t i = 0; i < SolverPool::size(); ++i) {
     visit(SolverPool::key(i), o.pool.on[i], "bool", SolverPool::meaning(i).c_str());
   }
-  visit("threshold_px", o.threshold_px, "px", "Sampson inlier bound");
-  visit("first_modes", o.first_modes, "count", "polished in a first look without sweep; 0: none");
-  visit("first_problems", o.first_problems, "count", "solved per solver in the first look");
-  visit("settled_cost", o.settled_cost, "-", "cost a point below which the first look stands");
-  visit("pitch_sweep_deg", o.pitch_sweep_deg, "deg", "relative pitch covered each way");
-  visit("pitch_step_deg", o.pitch_step_deg, "deg", "step of the sweep");
-  visit("roll_sweep_deg", o.roll_sweep_deg, "deg", "relative roll covered each way");
-  visit("roll_step_deg", o.roll_step_deg, "deg", "step of that sweep");
-  visit("minimal_problems", o.minimal_problems, "count", "solved per solver and pair, about");
-  visit("modes", o.modes, "count", "distinct hypotheses that are polished");
-  visit("mode_rotation_deg", o.mode_rotation_deg, "deg", "hypotheses closer than this ...");
-  visit("mode_direction_deg", o.mode_direction_deg, "deg", "... and this are one mode");
-  visit("finalists", o.finalists, "count", "modes that are polished to the end");
-  visit("min_inliers", o.min_inliers, "count", "a pose with fewer is refused");
-  visit("standing_px", o.standing_px, "px", "median shift, rotation removed, of a standing camera");
+  visit("threshold_px", o.threshold_px, "px", "Sampson inlier bound", Bound::positive());
+  visit("first_modes", o.first_modes, "count", "polished in a first look without sweep; 0: none",
+        Bound::at_least(0));
+  visit("first_problems", o.first_problems, "count", "solved per solver in the first look",
+        Bound::at_least(1));
+  visit("settled_cost", o.settled_cost, "-", "cost a point below which the first look stands",
+        Bound::from_to(0, 1));
+  visit("pitch_sweep_deg", o.pitch_sweep_deg, "deg", "relative pitch covered each way",
+        Bound::from_to(0, 10));
+  visit("pitch_step_deg", o.pitch_step_deg, "deg", "step of the sweep", Bound::positive());
+  visit("roll_sweep_deg", o.roll_sweep_deg, "deg", "relative roll covered each way",
+        Bound::from_to(0, 10));
+  visit("roll_step_deg", o.roll_step_deg, "deg", "step of that sweep", Bound::positive());
+  visit("minimal_problems", o.minimal_problems, "count", "solved per solver and pair, about",
+        Bound::at_least(1));
+  visit("modes", o.modes, "count", "distinct hypotheses that are polished", Bound::at_least(1));
+  visit("mode_rotation_deg", o.mode_rotation_deg, "deg", "hypotheses closer than this ...",
+        Bound::at_least(0));
+  visit("mode_direction_deg", o.mode_direction_deg, "deg", "... and this are one mode",
+        Bound::at_least(0));
+  visit("finalists", o.finalists, "count", "modes that are polished to the end",
+        Bound::at_least(1));
+  visit("min_inliers", o.min_inliers, "count", "a pose with fewer is refused", Bound::at_least(5));
+  visit("standing_px", o.standing_px, "px", "median shift, rotation removed, of a standing camera",
+        Bound::at_least(0));
 }
 
 /// Relative pose from one-AC hypotheses without a random number: correspondences are solved
@@ -70,7 +82,7 @@ void describe(Visitor&& visit, ConsensusOptions& o) {
 /// planar motion is taken.
 ///
 /// @param acs          normalised correspondences of the (tilted) camera
-/// @param R_level_cam  removes the camera's tilt (geometry/leveling.h), the same in both views
+/// @param R_level_cam  removes the camera's tilt (geometry/levelling.h), the same in both views
 /// @param focal_px     what turns threshold_px into normalised units [px]
 /// @param prior        what inertia and sensors say of the motion, part of the choice between rest
 ///                     and travel (motion_evidence.h)

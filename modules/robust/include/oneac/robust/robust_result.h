@@ -20,6 +20,7 @@ enum class PoseStatus {
   kNoMotion,      ///< the camera stood: R = I, t = 0
   kTooFew,        ///< too few correspondences or inliers: no pose
 };
+/// One word without comma, as in `relative_poses.csv`.
 [[nodiscard]] const char* to_string(PoseStatus status);
 
 /// A pose with a direction of translation came out.

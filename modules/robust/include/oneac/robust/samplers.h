@@ -11,6 +11,7 @@ namespace oneac {
 /// standard, the mapping to integers is ours.
 class RandomIndex {
  public:
+  /// Same seed, same numbers, on every machine.
   explicit RandomIndex(std::uint64_t seed) : engine_(seed) {}
   /// Uniform in 0 … bound − 1. @pre 0 < bound < 2³²
   [[nodiscard]] std::size_t below(std::size_t bound) {

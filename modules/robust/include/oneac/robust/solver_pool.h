@@ -24,7 +24,9 @@ struct SolverPool {
   [[nodiscard]] static SolverPool only(const Solver& solver);
   /// As parameters: how many, and key and meaning of the i-th.
   [[nodiscard]] static std::size_t size();
+  /// Key of the i-th solver in the section `consensus`.
   [[nodiscard]] static const char* key(std::size_t i);
+  /// What that key switches on, in a line.
   [[nodiscard]] static std::string meaning(std::size_t i);
   /// Whether the solver of that key, such as "ground", is on.
   /// @throws std::invalid_argument when there is none

@@ -61,8 +61,10 @@ class StreetSimulator {
   StreetSimulator(StreetSimulator&&) noexcept;
   StreetSimulator& operator=(StreetSimulator&&) noexcept;
 
+  /// As given.
   [[nodiscard]] const SimulationOptions& options() const;
   [[nodiscard]] std::size_t size() const;  ///< number of frames
+  /// Of the left images, without distortion.
   [[nodiscard]] PinholeCamera camera() const;
   /// The mounting: tilt_from_mounting() of it is the configured tilt.
   [[nodiscard]] Eigen::Isometry3d T_vehicle_cam() const;

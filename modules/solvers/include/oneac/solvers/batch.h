@@ -39,8 +39,7 @@ struct PlanarPoseArrays {
 /// depends on its own correspondence only. No level fuses multiplications with additions, so that
 /// the levels agree in practice; what is promised is 1e-9, not equal bits.
 /// @return  how many are valid
-/// @throws  std::invalid_argument  an array is null although size > 0, or the level is not
-/// supported
+/// @throws  std::invalid_argument an array is null although size > 0, or the level is not supported
 /// @cost    see tests/bench/solvers; no allocation; thread-safe
 std::size_t relpose_1ac_ground_batch(const AcArrays& acs, const PlanarPoseArrays& poses,
                                      SimdLevel level = best_simd_level());

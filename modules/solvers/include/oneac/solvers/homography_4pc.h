@@ -14,8 +14,7 @@ namespace oneac {
 /// @param points  N ≥ 4; of their affinities only a mirror image
 ///                (det A < 0) counts, which is refused
 /// @return        at most one H, scaled to a middle singular value of one and such that x2ᵀ H x1 >
-/// 0 for most
-///                points, ready for decompose_homography
+///                0 for most points, ready for decompose_homography
 /// @degenerate    three of four points on a line, coincident points, singular H, a rotation (no
 ///                motion: the points say nothing about a plane), mirrored, not finite: empty
 /// @cost          about 1.5 µs for four, no allocation; pure, thread-safe

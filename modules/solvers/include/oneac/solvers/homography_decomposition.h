@@ -8,8 +8,8 @@
 
 namespace oneac {
 
-/// A motion seen through a plane: t in units of the plane's distance d > 0, n·X = d in the first
-/// camera's frame.
+/// A motion seen through a plane: t in units of the plane's distance d > 0, n·X = d in the
+/// first camera's frame.
 struct PlanePose {
   RelativePose motion;
   Eigen::Vector3d n = Eigen::Vector3d::UnitZ();

@@ -60,6 +60,7 @@ struct Solver {
   PoolUse pool = PoolUse::kNever;
   BatchSolver batch = nullptr;  ///< several at a time, for the pool; null: one by one
 
+  /// Takes correspondences of a levelled camera.
   [[nodiscard]] bool levelled() const { return motion != SolverMotion::kAny; }
   /// Length known as soon as the camera height is.
   [[nodiscard]] bool metric() const { return surface == SolverSurface::kGround; }

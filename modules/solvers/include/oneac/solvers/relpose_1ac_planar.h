@@ -13,8 +13,8 @@ namespace oneac {
 /// t ∝ (E32, 0, −E12), and (cos α, sin α) follow from E21 = t_z c − t_x s, E23 = −t_z s − t_x c.
 /// @param ac   as relpose_1ac_ground; any plane, known or not
 /// @return     at most one pose T_2_1; |t| = 1, its sign puts the point in front of both cameras
-/// @degenerate rank(B) < 3, no motion, point behind a camera for either sign, det A ≤ 0, not
-/// finite: empty
+/// @degenerate rank(B) < 3, no motion, point behind a camera for either sign, det A ≤
+///             0, not finite: empty
 /// @cost       about 90 ns, no allocation; pure, thread-safe
 [[nodiscard]] SolutionSet<PlanarPose, 1> relpose_1ac_planar(const AffineCorrespondence& ac);
 

@@ -12,11 +12,10 @@ namespace oneac {
 ///
 /// Model: A_v1 (cos α, sin α, −t_x/d, −t_z/d)ᵀ = b, n = (1, 0, 0), n·X = d    [Gal 2020, eq. (10)],
 /// docs/solvers/relpose_1ac_side_wall.md
-/// @param ac   x1, x2: normalised image points [-]; A: ∂x2/∂x1 [-]; Y axis along gravity in both
-/// views
+/// @param ac   x1, x2: normalised image points [-]; A: ∂x2/∂x1 [-]; Y axis along
+///             gravity in both views
 /// @return     at most one pose T_2_1; (tx, tz) in units of the distance to the wall, its sign and
-/// the
-///             side of the wall follow from the point lying in front of the first camera
+///             the side of the wall follow from the point lying in front of the first camera
 /// @degenerate x or y within kHorizon of zero, det A ≤ 0, no motion, not finite: empty
 /// @cost       about 110 ns, no allocation; pure, thread-safe
 [[nodiscard]] SolutionSet<WallPose, 1> relpose_1ac_side_wall(const AffineCorrespondence& ac);

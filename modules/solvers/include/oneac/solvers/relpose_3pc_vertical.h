@@ -15,8 +15,8 @@ namespace oneac {
 /// @param points  N ≥ 3; of their affinities only a mirror image
 ///                (det A < 0) counts, which is refused
 /// @return        up to two poses T_2_1, t in units of the distance to the wall, n towards the wall
-/// @degenerate    fewer than three points off the horizon, points on one vertical line, no motion:
-/// empty
+/// @degenerate    fewer than three points off the horizon, points on one vertical
+///                line, no motion: empty
 /// @cost          about 500 ns for three, no allocation; pure, thread-safe
 [[nodiscard]] SolutionSet<WallPose, 2> relpose_3pc_vertical(AcSpan points,
                                                             const double* weights = nullptr);

@@ -11,6 +11,7 @@ struct WallPose : PlanarPose {
   double nx = 0.0;  ///< cos δ
   double nz = 1.0;  ///< sin δ
 
+  /// n of the wall, n·X = d > 0, |n| = 1, in the first camera.
   [[nodiscard]] Eigen::Vector3d normal() const { return {nx, 0.0, nz}; }
 };
 

@@ -21,6 +21,7 @@ struct Comparison {
   std::optional<double> lost_from;         ///< where ours stops being lower, interpolated
   std::optional<double> lost_from_median;  ///< the same by the median
 
+  /// At every level of the sweep.
   [[nodiscard]] bool won_all() const { return points > 0 && won == points; }
 };
 
@@ -37,6 +38,7 @@ struct Claim {
   std::string where{};          ///< where the winner changes, in short; may be empty
   std::string finding{};        ///< the numbers, as Markdown list items
 
+  /// No comparison speaks against it.
   [[nodiscard]] bool holds() const { return upheld == comparisons; }
 };
 

@@ -8,10 +8,10 @@
 
 namespace oneac {
 
-enum class StudyMotion { forward, sideways };                         ///< along Z, along X
-enum class StudySurface { ground, front_wall, side_wall, any_wall };  ///< all at distance 1
-enum class StudySweep { noise, wall_angle, tilt };
-enum class StudyMetric { rotation, translation, normal };  ///< ξ_R, ξ_t, ξ_n of the paper
+enum class StudyMotion { kForward, kSideways };                        ///< along Z, along X
+enum class StudySurface { kGround, kFrontWall, kSideWall, kAnyWall };  ///< all at distance 1
+enum class StudySweep { kNoise, kWallAngle, kTilt };
+enum class StudyMetric { kRotation, kTranslation, kNormal };  ///< ξ_R, ξ_t, ξ_n of the paper
 
 /// One series of measurements: a scene, a quantity that is varied, and who takes part.
 struct Experiment {
@@ -44,7 +44,9 @@ struct Figure {
 /// What a sweep is called: column of the CSV, and label of the axis.
 [[nodiscard]] std::string_view sweep_column(StudySweep sweep);
 [[nodiscard]] std::string_view sweep_label(StudySweep sweep);
+/// "px" or "°".
 [[nodiscard]] std::string_view sweep_unit(StudySweep sweep);
+/// "rotation", "translation" or "normal".
 [[nodiscard]] std::string_view metric_name(StudyMetric metric);
 
 }  // namespace oneac

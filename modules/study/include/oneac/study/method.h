@@ -15,8 +15,8 @@ using StudyMethod = const Solver*;
 
 /// How many of a trial's four correspondences a method sees.
 enum class DataUse {
-  minimal,  ///< as many as it needs, from the first on: 1AC one, 2AC two, 4PC four
-  all,      ///< all four, in least squares
+  kMinimal,  ///< as many as it needs, from the first on: 1AC one, 2AC two, 4PC four
+  kAll,      ///< all four, in least squares
 };
 
 /// Candidate poses from the four correspondences of a trial. Signs are resolved by cheirality, so

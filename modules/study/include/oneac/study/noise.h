@@ -12,10 +12,10 @@ namespace oneac {
 /// angle": open is how those errors are distributed and whether the two rotations have errors of
 /// their own. Points: a vector of exactly the level's length in any direction, except in `normal`.
 enum class NoiseShape {
-  uniform,  ///< angles and shares uniform in ± level
-  fixed,    ///< angles and shares of exactly the level, either sign
-  normal,   ///< zero-mean normal with the level as standard deviation; points per axis
-  common,   ///< as uniform, but one error for the angles of both U and V in A = U S Vᵀ
+  kUniform,  ///< angles and shares uniform in ± level
+  kFixed,    ///< angles and shares of exactly the level, either sign
+  kNormal,   ///< zero-mean normal with the level as standard deviation; points per axis
+  kCommon,   ///< as uniform, but one error for the angles of both U and V in A = U S Vᵀ
 };
 
 /// Noise of a correspondence; all zero: exact.
@@ -39,8 +39,8 @@ struct AffinityFactors {
 };
 [[nodiscard]] AffinityFactors affinity_factors(const Eigen::Matrix2d& A);
 
-/// A with its two angles and its two singular values disturbed, each by an error of its own (but
-/// see NoiseShape::common).
+/// A with its two angles and its two singular values disturbed, each by an error of its own
+/// (but see NoiseShape::kCommon).
 [[nodiscard]] Eigen::Matrix2d noisy_affinity(const Eigen::Matrix2d& A, const NoiseLevel& level,
                                              NoiseShape shape, TrialRandom& random);
 

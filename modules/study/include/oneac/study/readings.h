@@ -18,9 +18,9 @@ struct Reading {
 /// Every noise shape with minimal data and with all four correspondences for every method.
 [[nodiscard]] const std::vector<Reading>& readings();
 
-/// The experiments of the options' figures that claims rest on, under every reading in turn (the
-/// options' own noise shape and data use are not looked at). Stopped: the readings that are
-/// complete.
+/// The experiments of the options' figures that claims rest on, under every reading in turn
+/// (the options' own noise shape and data use are not looked at). Stopped: the readings
+/// that are complete.
 [[nodiscard]] std::vector<StudyResult> run_readings(const StudyOptions& options,
                                                     const StudyProgress& progress = {});
 

@@ -15,13 +15,13 @@ namespace oneac {
 struct StudyOptions {
   std::size_t trials = 10000;  ///< per point of a sweep; the paper's number
   std::uint64_t seed = 1;
-  int threads = 1;                               ///< changes no byte of the results
-  NoiseShape noise_shape = NoiseShape::uniform;  ///< errors up to the level, as the text has it
-  DataUse data_use = DataUse::all;               ///< the same four correspondences for every method
+  int threads = 1;                                ///< changes no byte of the results
+  NoiseShape noise_shape = NoiseShape::kUniform;  ///< errors up to the level, as the text has it
+  DataUse data_use = DataUse::kAll;  ///< the same four correspondences for every method
   std::vector<std::string> figures;  ///< ids, "i", "s" or names; empty or "all": all of them
 
-  /// @throws std::invalid_argument naming field, value and bound; an unknown figure with the
-  ///         nearest name
+  /// @throws std::invalid_argument naming field, value and bound; an unknown figure
+  ///         with the nearest name
   void validate() const;
 };
 

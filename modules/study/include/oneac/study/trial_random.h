@@ -18,7 +18,9 @@ class TrialRandom {
  public:
   explicit TrialRandom(std::uint64_t seed) : engine_(seed) {}
 
+  /// In [low, high).
   [[nodiscard]] double uniform(double low, double high);
+  /// Zero mean.
   [[nodiscard]] double normal(double sigma);
   /// −1 or +1.
   [[nodiscard]] double sign();

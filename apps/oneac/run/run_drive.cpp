@@ -1,7 +1,7 @@
 #include "run_drive.h"
 
-#include "interrupt.h"
-#include "progress_bar.h"
+#include "terminal/interrupt.h"
+#include "terminal/progress_bar.h"
 
 #include "oneac/base/error.h"
 #include "oneac/base/ordered_pipeline.h"

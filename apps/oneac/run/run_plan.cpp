@@ -30,7 +30,7 @@ struct Laid {
 };
 
 Laid laid_poses(const DriveRecord& record, const RunEvaluation& evaluation, const Points& way) {
-  Laid laid{"reference", Pen::line, {}, {}};
+  Laid laid{"reference", Pen::kLine, {}, {}};
   const ReferenceTrack track = reference_track(record, evaluation);
   const Eigen::Matrix3d R = record.mount().linear();
   std::optional<Eigen::Isometry3d> first;
@@ -44,7 +44,7 @@ Laid laid_poses(const DriveRecord& record, const RunEvaluation& evaluation, cons
 }
 
 Laid laid_gps(const DriveRecord& record, const Points& way) {
-  Laid laid{"GPS", Pen::dots, {}, {}};
+  Laid laid{"GPS", Pen::kDots, {}, {}};
   const auto& frames = record.frames;
   for (const GpsFix& fix : record.source.reference.gps) {
     if (!fix.position_enu) continue;
@@ -96,7 +96,7 @@ PlaneAlignment align_in_plane(const Points& x, const Points& y, bool scaled) {
 }
 
 Plot plan_of(const DriveRecord& record, const RunEvaluation& evaluation) {
-  Plot plan{"Seen from above, first heading up", "m", "", {}, false, Axes::plan};
+  Plot plan{"Seen from above, first heading up", "m", "", {}, false, Axes::kPlan};
   const Eigen::Matrix3d R = record.mount().linear();
   Points way, keyframes;
   for (const FrameResult& frame : record.frames) {
@@ -115,7 +115,7 @@ Plot plan_of(const DriveRecord& record, const RunEvaluation& evaluation) {
   }
   scale(way, factor);
   scale(keyframes, factor);
-  plan.series = {series_of("estimate", Pen::line, way)};
+  plan.series = {series_of("estimate", Pen::kLine, way)};
   for (Laid& laid : all) {
     if (laid.path.empty()) continue;
     scale(laid.estimate, factor);
@@ -123,7 +123,7 @@ Plot plan_of(const DriveRecord& record, const RunEvaluation& evaluation) {
     for (Eigen::Vector2d& point : laid.path) point = onto * point;
     plan.series.push_back(series_of(laid.label, laid.pen, laid.path));
   }
-  if (!keyframes.empty()) plan.series.push_back(series_of("keyframes", Pen::rings, keyframes));
+  if (!keyframes.empty()) plan.series.push_back(series_of("keyframes", Pen::kRings, keyframes));
   return plan;
 }
 

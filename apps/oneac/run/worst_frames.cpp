@@ -94,7 +94,7 @@ double distance(const RelativePose& pose, const AffineCorrespondence& ac) {
 MotionHint hint_of(const DriveRecord& record, const StepResult& step, const PinholeCamera& camera) {
   MotionHint hint;
   hint.camera = camera;
-  hint.R_level_cam = leveling_rotation(record.tilt);
+  hint.R_level_cam = levelling_rotation(record.tilt);
   hint.T_2_1 = step.pose;
   hint.scaled = step.metric && record.camera_height > 0.0;
   if (hint.scaled) hint.T_2_1->t /= record.camera_height;

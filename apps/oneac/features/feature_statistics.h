@@ -1,6 +1,6 @@
 #pragma once
 
-#include "run_observer.h"
+#include "run/run_observer.h"
 
 #include <cstddef>
 #include <cstdint>

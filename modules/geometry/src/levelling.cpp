@@ -1,10 +1,10 @@
-#include "oneac/geometry/leveling.h"
+#include "oneac/geometry/levelling.h"
 
 #include <cmath>
 
 namespace oneac {
 
-Eigen::Matrix3d leveling_rotation(const Tilt& tilt) {
+Eigen::Matrix3d levelling_rotation(const Tilt& tilt) {
   return pitch_rotation(tilt.pitch_up) * roll_rotation(tilt.roll_right);
 }
 

@@ -74,9 +74,9 @@ Eigen::Isometry3d DriveRecord::mount() const {
   // The log's heading of the camera with the pitch and roll that the drive confirmed.
   const Tilt log_tilt = tilt_from_mounting(T_vehicle_cam.linear());
   const Eigen::Matrix3d R_vehicle_level =
-      T_vehicle_cam.linear() * leveling_rotation(log_tilt).transpose();
+      T_vehicle_cam.linear() * levelling_rotation(log_tilt).transpose();
   Eigen::Isometry3d T = T_vehicle_cam;
-  T.linear() = R_vehicle_level * leveling_rotation(tilt);
+  T.linear() = R_vehicle_level * levelling_rotation(tilt);
   return T;
 }
 

@@ -3,7 +3,7 @@
 #include "car_mask/car_mask.h"
 #include "feature_mask.h"
 #include "klt_track.h"
-#include "patch_flow.h"
+#include "patch/patch_flow.h"
 #include "rematch.h"
 #include "static_points.h"
 

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "klt_track.h"
-#include "patch_flow.h"
+#include "patch/patch_flow.h"
 
 #include "oneac/features/affine_features.h"
 #include "oneac/features/feature_options.h"

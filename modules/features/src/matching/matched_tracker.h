@@ -1,7 +1,7 @@
 #pragma once
 
 #include "feature_mask.h"
-#include "image_pyramid.h"
+#include "patch/image_pyramid.h"
 
 #include "oneac/features/ac_tracker.h"
 #include "oneac/features/feature_options.h"

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "corner_grid.h"
-#include "patch_alignment.h"
+#include "patch/patch_alignment.h"
 
 #include "oneac/features/ac_extractor.h"
 

@@ -1,4 +1,4 @@
-#include "oneac/geometry/leveling.h"
+#include "oneac/geometry/levelling.h"
 
 #include "oneac/geometry/camera_frame.h"
 #include "oneac/test_support/scenes.h"
@@ -28,23 +28,23 @@ Eigen::Matrix3d ypr_deg(double yaw, double pitch, double roll) {
       .toRotationMatrix();
 }
 
-TEST(LevelingRotation, PositivePitchIsAnAxisAboveTheHorizon) {
-  const Eigen::Matrix3d L = leveling_rotation({8 * kDegree, 0});
+TEST(LevellingRotation, PositivePitchIsAnAxisAboveTheHorizon) {
+  const Eigen::Matrix3d L = levelling_rotation({8 * kDegree, 0});
   const Eigen::Vector3d axis = L * Eigen::Vector3d::UnitZ();
   EXPECT_NEAR(axis.y(), -std::sin(8 * kDegree), 1e-14);  // Y down: negative is up
   EXPECT_NEAR(axis.z(), std::cos(8 * kDegree), 1e-14);
   EXPECT_NEAR(axis.x(), 0.0, 1e-14);
 }
 
-TEST(LevelingRotation, PositiveRollIsARightSideThatHangsDown) {
-  const Eigen::Matrix3d L = leveling_rotation({0, 5 * kDegree});
+TEST(LevellingRotation, PositiveRollIsARightSideThatHangsDown) {
+  const Eigen::Matrix3d L = levelling_rotation({0, 5 * kDegree});
   const Eigen::Vector3d right = L * Eigen::Vector3d::UnitX();
   EXPECT_NEAR(right.y(), std::sin(5 * kDegree), 1e-14);  // Y down
   EXPECT_NEAR((L * Eigen::Vector3d::UnitZ()).z(), 1.0, 1e-14);
 }
 
-TEST(LevelingRotation, KeepsTheHeading) {
-  const Eigen::Matrix3d L = leveling_rotation({0.2, -0.1});
+TEST(LevellingRotation, KeepsTheHeading) {
+  const Eigen::Matrix3d L = levelling_rotation({0.2, -0.1});
   EXPECT_NEAR((L * Eigen::Vector3d::UnitZ()).x(), 0.0, 1e-14);
 }
 
@@ -82,12 +82,12 @@ TEST(TiltFromMounting, DoesNotDependOnTheHeading) {
   EXPECT_NEAR(ahead.roll_right, aside.roll_right, 1e-12);
 }
 
-TEST(TiltFromMounting, RecoversTheTiltOfTheLevelingRotation) {
+TEST(TiltFromMounting, RecoversTheTiltOfTheLevellingRotation) {
   SceneGenerator scenes(21);
   for (int i = 0; i < 1000; ++i) {
     const Tilt truth{scenes.uniform(-1.0, 1.0), scenes.uniform(-1.0, 1.0)};
     // The camera sees gravity in Lᵀ; R_vehicle_cam = R_vehicle_level L.
-    const Eigen::Matrix3d R_vehicle_cam = level_mount() * leveling_rotation(truth);
+    const Eigen::Matrix3d R_vehicle_cam = level_mount() * levelling_rotation(truth);
     const Tilt tilt = tilt_from_mounting(R_vehicle_cam);
     EXPECT_NEAR(tilt.pitch_up, truth.pitch_up, 1e-12) << "seed 21, scene " << i;
     EXPECT_NEAR(tilt.roll_right, truth.roll_right, 1e-12) << "seed 21, scene " << i;
@@ -101,7 +101,7 @@ TEST(TiltFromMounting, LeadsGravityToYWhateverTheMount) {
         ypr_deg(scenes.uniform(-180, 180), scenes.uniform(-60, 60), scenes.uniform(-60, 60)) *
         level_mount();
     const Eigen::Vector3d gravity_cam = R_vehicle_cam.transpose() * Eigen::Vector3d(0, 0, -1);
-    const Eigen::Matrix3d L = leveling_rotation(tilt_from_mounting(R_vehicle_cam));
+    const Eigen::Matrix3d L = levelling_rotation(tilt_from_mounting(R_vehicle_cam));
     EXPECT_LT((L * gravity_cam - kGravity).norm(), 1e-12) << "seed 22, scene " << i;
   }
 }
@@ -110,7 +110,7 @@ TEST(Level, DescribesTheSameMotionInLevelledFrames) {
   SceneGenerator scenes(23);
   for (int i = 0; i < 1000; ++i) {
     const RelativePose T = scenes.general_motion();
-    const Eigen::Matrix3d L = leveling_rotation({scenes.uniform(-1, 1), scenes.uniform(-1, 1)});
+    const Eigen::Matrix3d L = levelling_rotation({scenes.uniform(-1, 1), scenes.uniform(-1, 1)});
     const Eigen::Vector3d X1(scenes.uniform(-5, 5), scenes.uniform(-5, 5), scenes.uniform(1, 20));
     const Eigen::Vector3d X2_level = level(T, L) * (L * X1);
     EXPECT_LT((X2_level - L * (T * X1)).norm(), 1e-12) << "seed 23, scene " << i;
@@ -120,7 +120,7 @@ TEST(Level, DescribesTheSameMotionInLevelledFrames) {
 TEST(Level, IsUndoneByUnlevel) {
   SceneGenerator scenes(24);
   const RelativePose T = scenes.general_motion();
-  const Eigen::Matrix3d L = leveling_rotation({0.14, -0.05});
+  const Eigen::Matrix3d L = levelling_rotation({0.14, -0.05});
   const RelativePose back = unlevel(level(T, L), L);
   EXPECT_LT((back.R - T.R).norm(), 1e-14);
   EXPECT_LT((back.t - T.t).norm(), 1e-14);
@@ -129,7 +129,7 @@ TEST(Level, IsUndoneByUnlevel) {
 TEST(Unlevel, LetsACameraThatLooksUpSinkBelowItsAxisWhenDrivingLevel) {
   // Level forward motion of a camera that looks 8° up: it moves forward and down in its own frame.
   const RelativePose level_forward{Eigen::Matrix3d::Identity(), {0, 0, -1}};
-  const RelativePose T = unlevel(level_forward, leveling_rotation({8 * kDegree, 0}));
+  const RelativePose T = unlevel(level_forward, levelling_rotation({8 * kDegree, 0}));
   const Eigen::Vector3d motion = -(T.R.transpose() * T.t);  // of the camera, in the first frame
   EXPECT_NEAR(motion.z(), std::cos(8 * kDegree), 1e-12);
   EXPECT_NEAR(motion.y(), std::sin(8 * kDegree), 1e-12);

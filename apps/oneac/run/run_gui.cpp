@@ -1,6 +1,6 @@
 #include "run_gui.h"
 
-#include "interrupt.h"
+#include "terminal/interrupt.h"
 
 #include "oneac/base/error.h"
 

@@ -1,6 +1,6 @@
 #include "matched_tracker.h"
 
-#include "patch_flow.h"
+#include "patch/patch_flow.h"
 #include "with_quality.h"
 
 #include "oneac/base/median.h"

@@ -2,7 +2,7 @@
 
 #include "klt_track.h"
 #include "motion_prediction.h"
-#include "patch_flow.h"
+#include "patch/patch_flow.h"
 
 #include <optional>
 #include <vector>

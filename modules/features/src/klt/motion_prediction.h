@@ -1,6 +1,6 @@
 #pragma once
 
-#include "patch_window.h"
+#include "patch/patch_window.h"
 
 #include "oneac/features/ac_tracker.h"
 

@@ -28,7 +28,7 @@ double yaw_of(const Eigen::Matrix3d& R) {
 /// One value per step over the time of its second image.
 template <class Value>
 PlotSeries per_step(const DriveRecord& record, const std::string& label, Value&& value) {
-  PlotSeries series{label, {}, {}, Pen::line};
+  PlotSeries series{label, {}, {}, Pen::kLine};
   for (std::size_t i = 1; i < record.frames.size(); ++i) {
     series.x.push_back(seconds(record, record.frames[i].time_s));
     const bool has_step = record.frames[i].step.has_value();
@@ -62,7 +62,7 @@ Plot speed_plot(const DriveRecord& record, const ReferenceTrack& track) {
   add_reference(record, track, plot, [](const Eigen::Isometry3d& a, const Eigen::Isometry3d& b) {
     return (b.translation() - a.translation()).norm();
   });
-  PlotSeries gps{"GPS", {}, {}, Pen::dots};
+  PlotSeries gps{"GPS", {}, {}, Pen::kDots};
   for (const GpsFix& fix : record.source.reference.gps) {
     if (!fix.speed || !is_during(record, fix.time_s)) continue;
     gps.x.push_back(seconds(record, fix.time_s));
@@ -74,7 +74,7 @@ Plot speed_plot(const DriveRecord& record, const ReferenceTrack& track) {
 
 /// Turn between fixes over the time between them, where both drive.
 PlotSeries course_rate(const DriveRecord& record) {
-  PlotSeries series{"GPS course", {}, {}, Pen::dots};
+  PlotSeries series{"GPS course", {}, {}, Pen::kDots};
   const GpsFix* before = nullptr;
   for (const GpsFix& fix : record.source.reference.gps) {
     const bool drives = fix.course && fix.speed && *fix.speed >= kStanding;
@@ -109,7 +109,7 @@ Plot yaw_rate_plot(const DriveRecord& record, const ReferenceTrack& track) {
 
 /// Path of the estimate over that of the reference − 1 over the last kScaleStretch metres.
 PlotSeries scale_error(const DriveRecord& record, const ReferenceTrack& track) {
-  PlotSeries series{"error over the last 20 m", {}, {}, Pen::line};
+  PlotSeries series{"error over the last 20 m", {}, {}, Pen::kLine};
   std::vector<double> estimated, truth;
   std::size_t begin = 0;
   const auto restart = [&] { estimated = truth = {0.0}, begin = 0; };
@@ -149,7 +149,7 @@ Plot scale_plot(const DriveRecord& record, const ReferenceTrack& track) {
 Plot tilt_plot(const DriveRecord& record) {
   Plot plot{"Tilt of the camera, as believed", "time [s]", "deg", {}, false};
   const auto add = [&](const char* label, auto&& angle) {
-    PlotSeries series{label, {}, {}, Pen::line};
+    PlotSeries series{label, {}, {}, Pen::kLine};
     for (const FrameResult& frame : record.frames) {
       series.x.push_back(seconds(record, frame.time_s));
       series.y.push_back(angle(frame) / kDegree);
