@@ -30,6 +30,7 @@ class KltTracker : public AcTracker {
                                     const MotionHint& hint) override;
   void reset() override;
   [[nodiscard]] GreyImage car_mask() const override { return car_mask_.picture(); }
+  [[nodiscard]] bool car_mask_refused() const override { return car_mask_.is_refused(); }
   [[nodiscard]] ImageView unused() const override { return unused_.view(); }
 
  private:
@@ -37,6 +38,7 @@ class KltTracker : public AcTracker {
 
   /// Looks for the car in the image; tracks on what is known to be the car end.
   void learn_car(const KltFrame& now, const MotionHint& hint);
+  [[nodiscard]] bool stands(const KltFrame& now) const;
   [[nodiscard]] TrackedPair stand();
   [[nodiscard]] Matches follow(const std::shared_ptr<const KltFrame>& now,
                                const MotionPrediction& motion);
