@@ -85,8 +85,8 @@ TEST(SetupCheck, FindsTheRoadWhereItShouldNotBe) {
     double roll;
     const char* cure;
   };
-  for (const Case& c : {Case{180.0, "with 180 degrees"}, Case{90.0, "with 90 degrees"},
-                        Case{-90.0, "with -90 degrees"}}) {
+  for (const Case& c : {Case{180.0, "--mount-roll 180"}, Case{90.0, "--mount-roll 90"},
+                        Case{-90.0, "--mount-roll -90"}}) {
     const auto found = faults({0.0, 0.0, 0.0}, {c.roll, 0.0, 0.0});
     ASSERT_EQ(found.size(), 1U) << c.roll;
     EXPECT_NE(found[0].find(c.cure), std::string::npos) << found[0];

@@ -83,7 +83,7 @@ TEST(StepCovariance, IsSymmetricAndPositiveSemidefiniteForEveryKindOfStep) {
       const Matrix6 covariance = step_covariance(step, told);
       EXPECT_TRUE(covariance.isApprox(covariance.transpose(), 1e-14));
       EXPECT_GT(smallest_eigenvalue(covariance), -1e-15) << to_string(status);
-      EXPECT_GT(covariance.topLeftCorner<3, 3>().trace(), 0.0) << to_string(status);
+      EXPECT_GT((covariance.topLeftCorner<3, 3>().trace()), 0.0) << to_string(status);
     }
   }
 }
