@@ -38,9 +38,15 @@ constexpr double kSwing = 5.0 * kDegree;
 constexpr double kElsewhere = 0.5, kRarerBelow = 0.25;
 // A road is nearer than other planes by this: 1.5 m below the camera, where walls stand at 2.3 m.
 constexpr double kNearer = 1.5;
-// [heights] to each side of the point below the camera, and share of a road's points beyond: half
-// a lane. A wall reaches down to the ground only, less than this where the ground is nearer.
-constexpr double kToEachSide = 0.5, kShareAtEachSide = 0.1;
+// [heights] to each side of the point below the camera, and share of a road's points beyond: two
+// thirds of a lane's half. A wall reaches down to the ground only: less, unless it stands within 2
+// m.
+constexpr double kToEachSide = 0.8, kShareAtEachSide = 0.1;
+// [rad] of a camera's axis from the vehicle's: beyond, the travel does not show how far it looks
+// up.
+constexpr double kLooksAside = 45.0 * kDegree;
+// [rad] a pitch that nobody told is zero.
+constexpr double kNoPitch = 1e-6;
 // [-] relative distance from a plane of a point that lies on it, as kPlaneCut of ground_scale().
 constexpr double kOnPlane = 0.12;
 // [px] 1σ of a point's position.
@@ -74,15 +80,28 @@ bool reaches_to_both_sides(const std::vector<AffineCorrespondence>& acs, const T
   return on_plane > 0 && share(std::min(left, right), on_plane) >= kShareAtEachSide;
 }
 
+/// The levelling that the travel shows, which is horizontal, with the roll as believed; as believed
+/// for a camera that looks aside.
+Eigen::Matrix3d levelling_by_travel(const RelativePose& pose, const Eigen::Matrix3d& R_level_cam) {
+  Eigen::Vector3d along = travel_of(pose);
+  if (along.z() < 0.0) along = -along;
+  if (along.z() < std::cos(kOff)) return R_level_cam;
+  const Eigen::Matrix3d ahead =
+      Eigen::Quaterniond::FromTwoVectors(along, Eigen::Vector3d::UnitZ()).toRotationMatrix();
+  const Tilt believed = tilt_from_down(R_level_cam.row(1).transpose());
+  return leveling_rotation({0.0, believed.roll_right}) * ahead;
+}
+
 /// Where a road lies: at the nearest plane, turned by quarters to the right about the axis.
 std::optional<std::size_t> road_of(const TwoView& seen, const Eigen::Matrix3d& R_level_cam) {
   const std::vector<AffineCorrespondence> acs = affine_parts(seen.pair);
+  const Eigen::Matrix3d believed = levelling_by_travel(seen.pose, R_level_cam);
   std::array<double, 4> heights{};
   std::array<Eigen::Matrix3d, 4> levels;
   for (std::size_t quarter = 0; quarter < heights.size(); ++quarter) {
     const Eigen::AngleAxisd turn(0.5 * M_PI * static_cast<double>(quarter),
                                  Eigen::Vector3d::UnitZ());
-    levels[quarter] = turn * R_level_cam;
+    levels[quarter] = turn * believed;
     const auto plane = ground_scale(acs, seen.inliers, seen.pose, levels[quarter],
                                     kPointSigma_px / seen.focal_px, {});
     heights[quarter] =
@@ -153,11 +172,23 @@ ScaleCorrection SetupCheck::checked(ScaleCorrection correction) const {
 
 void SetupCheck::follow(const TwoView& seen, const Eigen::Matrix3d& R_level_cam) {
   if (seen.status != StepStatus::kOk || !(seen.pose.t.norm() > 0.0)) return;
+  if (travels_.count == 0) {
+    const bool aside = std::abs(nose_.z()) < std::cos(kLooksAside);
+    const Tilt told = tilt_from_down(R_level_cam.row(1).transpose());
+    pitch_is_missing_ = aside && std::abs(told.pitch_up) < kNoPitch;
+  }
   remember(seen, R_level_cam);
   const std::size_t every = looks_.count < kFewestLooks ? kLookEvery : kLookLater;
   if (travels_.count % every == 0) look_for_road(seen, R_level_cam);
   faults_ = of_camera_;
   for (std::string& fault : faults_of_drive()) faults_.push_back(std::move(fault));
+}
+
+std::optional<std::string> SetupCheck::fault_of_pitch() const {
+  if (!pitch_is_missing_) return std::nullopt;
+  return "how far a camera that looks aside looks up cannot be seen while driving and nobody told "
+         "it, so nothing is in metres; give its angle above the horizon with --mount-pitch (0.1 "
+         "for a level one)";
 }
 
 void SetupCheck::remember(const TwoView& seen, const Eigen::Matrix3d& R_level_cam) {
@@ -182,7 +213,7 @@ std::vector<std::string> SetupCheck::faults_of_drive() const {
   std::vector<std::string> faults;
   const auto swing = fault_of_swing();
   const auto heading = swing ? std::nullopt : fault_of_heading();
-  for (const auto& fault : {swing, heading, fault_of_road()}) {
+  for (const auto& fault : {swing, heading, fault_of_road(), fault_of_pitch()}) {
     if (fault) faults.push_back(*fault);
   }
   return faults;

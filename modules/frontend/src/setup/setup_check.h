@@ -22,8 +22,9 @@ namespace oneac {
 /// From the first image: camera_faults(). From the whole drive up to now: the direction of travel
 /// lies where the mount says that the vehicle's nose is; the road lies below the camera and not
 /// above it or to one side; travel does not swing from side to side with every image, as between
-/// two cameras. A drive that once showed its road below, again and again, is not accused in a
-/// tunnel: what is said can be taken back, and what stands at the end holds for the whole drive.
+/// two cameras; the pitch of a camera that looks aside was told. A drive that once showed its road
+/// below, again and again, is not accused in a tunnel: what is said can be taken back, and what
+/// stands at the end holds for the whole drive.
 ///
 /// Walls, hedges, barriers and ceilings are planes along the way, too. A road differs from them: it
 /// is nearer than all others, and reaches to both sides of the point below the camera. A wall
@@ -61,11 +62,13 @@ class SetupCheck {
   [[nodiscard]] std::optional<std::string> fault_of_swing() const;
   [[nodiscard]] std::optional<std::string> fault_of_heading() const;
   [[nodiscard]] std::optional<std::string> fault_of_road() const;
+  [[nodiscard]] std::optional<std::string> fault_of_pitch() const;
 
   std::vector<std::string> of_camera_;
   std::vector<std::string> faults_;
   MountAngles believed_;
   Eigen::Vector3d nose_ = Eigen::Vector3d::UnitZ();  ///< vehicle's X in the levelled camera
+  bool pitch_is_missing_ = false;                    ///< of a camera that looks aside
   Travels travels_;
   Looks looks_;
 };
