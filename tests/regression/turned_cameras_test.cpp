@@ -148,13 +148,13 @@ TEST_F(TurnedKitti03, PortraitIsRightWhenTheLogTells) {
 TEST_F(TurnedKitti03, UpsideDownHasNoMetresWhenNobodyTells) {
   import(upside_down, kUpsideDown, {});
   run();
-  expect_no_metres_because("--mount-roll with 180 degrees");
+  expect_no_metres_because("--mount-roll 180");
 }
 
 TEST_F(TurnedKitti03, PortraitHasNoMetresWhenNobodyTells) {
   import(portrait, kPortrait, {});
   run();
-  expect_no_metres_because("--mount-roll with 90 degrees");
+  expect_no_metres_because("--mount-roll 90");
 }
 
 TEST_F(TurnedKitti03, HasNoMetresByTheCalibrationOfLargerImages) {

@@ -85,12 +85,79 @@ TEST(SetupCheck, FindsTheRoadWhereItShouldNotBe) {
     double roll;
     const char* cure;
   };
-  for (const Case& c : {Case{180.0, "with 180 degrees"}, Case{90.0, "with 90 degrees"},
-                        Case{-90.0, "with -90 degrees"}}) {
+  for (const Case& c : {Case{180.0, "--mount-roll 180"}, Case{90.0, "--mount-roll 90"},
+                        Case{-90.0, "--mount-roll -90"}}) {
     const auto found = faults({0.0, 0.0, 0.0}, {c.roll, 0.0, 0.0});
     ASSERT_EQ(found.size(), 1U) << c.roll;
     EXPECT_NE(found[0].find(c.cure), std::string::npos) << found[0];
     EXPECT_NE(found[0].find("nothing is in metres"), std::string::npos) << found[0];
+  }
+}
+
+/// What an upright camera sees that passes a wall at its right, from the ground up.
+TwoView beside_wall(double distance, double height_of_wall) {
+  SceneGenerator random(7);
+  const RelativePose T{Eigen::Matrix3d::Identity(), Eigen::Vector3d(0.0, 0.0, -1.0)};
+  const Eigen::Matrix3d H = plane_induced_homography(T, {Eigen::Vector3d::UnitX(), distance});
+  TwoView seen;
+  seen.status = StepStatus::kOk;
+  seen.focal_px = 720.0;
+  seen.pose = T;
+  for (int i = 0; i < 80; ++i) {
+    const Eigen::Vector3d X(distance, kHeight - random.uniform(0.0, height_of_wall),
+                            distance * random.uniform(1.5, 5.0));
+    const auto ac = correspondence_from_homography(H, X.head<2>() / X.z());
+    if (!ac) continue;
+    seen.pair.correspondences.emplace_back();
+    static_cast<AffineCorrespondence&>(seen.pair.correspondences.back()) = *ac;
+  }
+  seen.inliers.assign(seen.pair.size(), true);
+  seen.inlier_count = seen.pair.size();
+  return seen;
+}
+
+TEST(SetupCheck, TakesNoWallForARoadWhereTheRoadShowsNothing) {
+  for (const double distance : {2.0, 4.0, 15.0}) {
+    for (const double height_of_wall : {0.9, 3.0, 10.0}) {
+      SetupCheck setup;
+      setup.start(frame_of({}));
+      const TwoView seen = beside_wall(distance, height_of_wall);
+      for (int i = 0; i < kSteps; ++i) setup.follow(seen, levelling({}));
+      EXPECT_TRUE(setup.metric_allowed()) << distance << ' ' << height_of_wall;
+    }
+  }
+}
+
+TEST(SetupCheck, IsNotMisledByATunnelOnceTheRoadWasSeen) {
+  SetupCheck setup;
+  setup.start(frame_of({}));
+  const TwoView road = seen_by({}, {1.0, 0.0, 0.0});
+  const TwoView ceiling = seen_by(rolled(180.0), {1.0, 0.0, 0.0});
+  for (int i = 0; i < kSteps; ++i) setup.follow(road, levelling({}));
+  for (int i = 0; i < 8 * kSteps; ++i) setup.follow(ceiling, levelling({}));
+  EXPECT_TRUE(setup.metric_allowed());
+}
+
+TEST(SetupCheck, TakesBackWhatItSaidInATunnel) {
+  SetupCheck setup;
+  setup.start(frame_of({}));
+  const TwoView road = seen_by({}, {1.0, 0.0, 0.0});
+  const TwoView ceiling = seen_by(rolled(180.0), {1.0, 0.0, 0.0});
+  for (int i = 0; i < kSteps / 2; ++i) setup.follow(ceiling, levelling({}));
+  EXPECT_FALSE(setup.metric_allowed());
+  for (int i = 0; i < 8 * kSteps; ++i) setup.follow(road, levelling({}));
+  EXPECT_TRUE(setup.metric_allowed());
+}
+
+TEST(SetupCheck, DirectionsAllAroundAreNoMount) {
+  SetupCheck setup;
+  setup.start(frame_of({}));
+  for (int i = 0; i < 4 * kSteps; ++i) {
+    const double angle = 2.4 * i;  // the golden angle: even all around
+    setup.follow(seen_by({}, {std::cos(angle), std::sin(angle), 0.0}), levelling({}));
+  }
+  for (const std::string& fault : setup.faults()) {
+    EXPECT_EQ(fault.find("off the direction"), std::string::npos) << fault;
   }
 }
 
@@ -100,6 +167,22 @@ TEST(SetupCheck, FindsTravelOffTheBelievedHeading) {
   EXPECT_NE(found[0].find("40° off"), std::string::npos) << found[0];
   EXPECT_NE(found[0].find("--mount-yaw"), std::string::npos) << found[0];
   EXPECT_FALSE(faults({0.0, 0.0, 90.0}, {0.0, 0.0, 20.0}).empty());
+}
+
+TEST(SetupCheck, ACameraThatLooksAsideNeedsItsPitch) {
+  const auto found = faults({0.0, 0.0, 90.0}, {0.0, 0.0, 90.0});
+  ASSERT_EQ(found.size(), 1U);
+  EXPECT_NE(found[0].find("--mount-pitch"), std::string::npos) << found[0];
+  for (const MountAngles& mount : {MountAngles{0.0, 3.0, 90.0}, MountAngles{0.0, 0.0, 180.0}}) {
+    EXPECT_TRUE(faults(mount, mount).empty()) << mount.yaw_left_deg;
+  }
+}
+
+TEST(SetupCheck, TheCureKeepsPitchAndYawThatTheLogTells) {
+  const auto found = faults({0.0, 8.2, 10.0}, {180.0, 8.2, 10.0});
+  ASSERT_EQ(found.size(), 1U);
+  EXPECT_NE(found[0].find("--mount-roll 180 --mount-pitch 8.2 --mount-yaw 10"), std::string::npos)
+      << found[0];
 }
 
 TEST(SetupCheck, AllowsBacking) {

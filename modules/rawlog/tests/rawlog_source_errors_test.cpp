@@ -30,7 +30,7 @@ class SourceErrors : public ::testing::Test {
     EXPECT_EQ(message.find('\n'), std::string::npos);
   }
   TemporaryFolder folder_;
-  SourceOptions options_{folder_.path() / "drive.rawlog", {}, "", "", "auto", 0, 0, 1};
+  SourceOptions options_{folder_.path() / "drive.rawlog", {}, "", "", "auto", {}, 0, 0, 1};
 };
 
 TEST_F(SourceErrors, NoSuchFile) {

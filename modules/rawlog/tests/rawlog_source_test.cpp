@@ -42,7 +42,7 @@ class Source : public ::testing::Test {
   static int level(const CameraFrame& frame) { return frame.image.row(0)[0]; }
 
   TemporaryFolder folder_;
-  SourceOptions options_{folder_.path() / "drive.rawlog", {}, "", "", "auto", 0, 0, 1};
+  SourceOptions options_{folder_.path() / "drive.rawlog", {}, "", "", "auto", {}, 0, 0, 1};
   SourceReport report_;
 };
 

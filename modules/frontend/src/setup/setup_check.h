@@ -4,12 +4,12 @@
 #include "two_view/two_view.h"
 
 #include "oneac/geometry/camera_frame.h"
+#include "oneac/observations/sensor_mount.h"
 
 #include <Eigen/Core>
 
 #include <array>
 #include <cstddef>
-#include <deque>
 #include <optional>
 #include <string>
 #include <vector>
@@ -19,9 +19,16 @@ namespace oneac {
 /// Whether calibration and mount, as they are believed, can be those of this drive. While something
 /// speaks against them, nothing is in metres.
 ///
-/// From the first image: camera_faults(). From the drive: the direction of travel lies where the
-/// mount says that the vehicle's nose is; the road lies below the camera and not above it or to one
-/// side; travel does not swing from side to side with every image, as between two cameras.
+/// From the first image: camera_faults(). From the whole drive up to now: the direction of travel
+/// lies where the mount says that the vehicle's nose is; the road lies below the camera and not
+/// above it or to one side; travel does not swing from side to side with every image, as between
+/// two cameras; the pitch of a camera that looks aside was told. A drive that once showed its road
+/// below, again and again, is not accused in a tunnel: what is said can be taken back, and what
+/// stands at the end holds for the whole drive.
+///
+/// Walls, hedges, barriers and ceilings are planes along the way, too. A road differs from them: it
+/// is nearer than all others, and reaches to both sides of the point below the camera. A wall
+/// begins at the ground, which is nearer.
 class SetupCheck {
  public:
   /// The first frame of the drive.
@@ -37,13 +44,17 @@ class SetupCheck {
   [[nodiscard]] ScaleCorrection checked(ScaleCorrection correction) const;
 
  private:
-  /// A step that moved.
-  struct Travel {
-    double off_heading = 0.0;  ///< [rad] from the vehicle's nose, or tail where it is nearer
-    double to_the_left = 0.0;  ///< [rad] with its sign, ahead or back
+  /// Of all steps that moved: a mount does not change during a drive.
+  struct Travels {
+    std::size_t count = 0, off = 0, swings = 0;
+    Eigen::Vector3d sum = Eigen::Vector3d::Zero();  ///< of directions, in the levelled camera
+    double last_to_the_left = 0.0;                  ///< [rad] with its sign, ahead or back
   };
-  /// Where a road was measured: below, as believed, and turned by quarters about the axis.
-  using RoadSeen = std::array<bool, 4>;
+  /// Looks, and those in which the road lay below, as believed, or a quarter turn or two from it.
+  struct Looks {
+    std::size_t count = 0;
+    std::array<std::size_t, 4> road{};
+  };
 
   void remember(const TwoView& seen, const Eigen::Matrix3d& R_level_cam);
   void look_for_road(const TwoView& seen, const Eigen::Matrix3d& R_level_cam);
@@ -51,13 +62,15 @@ class SetupCheck {
   [[nodiscard]] std::optional<std::string> fault_of_swing() const;
   [[nodiscard]] std::optional<std::string> fault_of_heading() const;
   [[nodiscard]] std::optional<std::string> fault_of_road() const;
+  [[nodiscard]] std::optional<std::string> fault_of_pitch() const;
 
   std::vector<std::string> of_camera_;
   std::vector<std::string> faults_;
+  MountAngles believed_;
   Eigen::Vector3d nose_ = Eigen::Vector3d::UnitZ();  ///< vehicle's X in the levelled camera
-  std::deque<Travel> travels_;                       ///< newest last
-  std::deque<RoadSeen> looks_;                       ///< newest last
-  std::size_t moved_ = 0;                            ///< steps
+  bool pitch_is_missing_ = false;                    ///< of a camera that looks aside
+  Travels travels_;
+  Looks looks_;
 };
 
 }  // namespace oneac
