@@ -9,8 +9,10 @@
 #include "oneac/solvers/relpose_1ac_front_wall.h"
 #include "oneac/solvers/relpose_1ac_ground.h"
 #include "oneac/solvers/relpose_1ac_planar.h"
+#include "oneac/solvers/relpose_1ac_planar_focal.h"
 #include "oneac/solvers/relpose_1ac_planar_pitch.h"
 #include "oneac/solvers/relpose_1ac_side_wall.h"
+#include "oneac/solvers/relpose_1ac_vertical.h"
 #include "oneac/solvers/relpose_1ac_wall.h"
 #include "oneac/solvers/relpose_1pc_ackermann.h"
 #include "oneac/solvers/relpose_2pc_ground.h"
@@ -36,6 +38,16 @@ SolutionSet<PitchedPose, 1> nac_planar_pitch(AcSpan acs) {
   return relpose_nac_planar_pitch(acs, nullptr, kMaxPitch);
 }
 
+// Robust loops assume some focal length: one off by more than a factor of two is no guess.
+constexpr double kMaxFocalRatio = 2.0;
+
+SolutionSet<PlanarFocalPose, 1> planar_focal(const AffineCorrespondence& ac) {
+  return relpose_1ac_planar_focal(ac, kMaxFocalRatio);
+}
+SolutionSet<PlanarFocalPose, 1> nac_planar_focal(AcSpan acs) {
+  return relpose_nac_planar_focal(acs, nullptr, kMaxFocalRatio);
+}
+
 std::string_view text(SolverMotion motion) {
   switch (motion) {
     case SolverMotion::kPlanar:
@@ -44,6 +56,8 @@ std::string_view text(SolverMotion motion) {
       return "planar motion and a pitch";
     case SolverMotion::kCircular:
       return "circular planar motion";
+    case SolverMotion::kUpright:
+      return "known vertical";
     default:
       return "any motion";
   }
@@ -92,10 +106,10 @@ constexpr Solver kRows[] = {
     {"relpose_1ac_front_wall_rapid", "1AC front wall rapid", "", 1, kAffine, Motion::kPlanar,
      Surface::kFrontWall, "yaw, t", "wall distance", 77,
      functions<&relpose_1ac_front_wall_rapid, &relpose_nac_front_wall_rapid>()},
-    {"relpose_1ac_wall", "1AC vertical", "1ac_wall", 1, kAffine, Motion::kPlanar, Surface::kWall,
+    {"relpose_1ac_wall", "1AC wall", "1ac_wall", 1, kAffine, Motion::kPlanar, Surface::kWall,
      "yaw, t, normal", "wall distance", 85, functions<&relpose_1ac_wall, &relpose_nac_wall>(),
      PoolUse::kOff},
-    {"relpose_1ac_wall_candidates", "1AC vertical candidates", "", 1, kAffine, Motion::kPlanar,
+    {"relpose_1ac_wall_candidates", "1AC wall candidates", "", 1, kAffine, Motion::kPlanar,
      Surface::kWall, "yaw, ±t, ±normal", "wall distance", 90,
      functions<&relpose_1ac_wall_candidates, nullptr>()},
     {"relpose_1ac_planar", "1AC planar", "1ac_planar", 1, kAffine, Motion::kPlanar, Surface::kAny,
@@ -104,6 +118,12 @@ constexpr Solver kRows[] = {
     {"relpose_1ac_planar_pitch", "1AC planar pitch", "", 1, kAffine, Motion::kPitched,
      Surface::kAny, "yaw, direction, pitch", "1", 2600,
      functions<&planar_pitch, &nac_planar_pitch>()},
+    {"relpose_1ac_planar_focal", "1AC planar focal", "1ac_planar_focal", 1, kAffine,
+     Motion::kPlanar, Surface::kAny, "yaw, direction, focal length", "1", 80,
+     functions<&planar_focal, &nac_planar_focal>()},
+    {"relpose_1ac_vertical", "1AC known vertical", "1ac_vertical", 1, kAffine, Motion::kUpright,
+     Surface::kAny, "yaw, direction", "1", 390,
+     functions<&relpose_1ac_vertical, &relpose_nac_vertical>()},
     {"relpose_1pc_ackermann", "1PC Ackermann", "1pc", 1, kPoint, Motion::kCircular, Surface::kAny,
      "yaw", "1", 40, functions<&relpose_1pc_ackermann, &relpose_1pc_ackermann>()},
     {"relpose_2pc_ground", "2PC ground", "2pc_ground", 2, kPoint, Motion::kPlanar, Surface::kGround,

@@ -4,6 +4,7 @@
 #include "oneac/solvers/essential_8pc.h"
 #include "oneac/solvers/registry.h"
 #include "oneac/solvers/relpose_1ac_planar_pitch.h"
+#include "oneac/solvers/relpose_1ac_vertical.h"
 #include "oneac/solvers/wall_pose.h"
 
 #include <cstddef>
@@ -23,6 +24,9 @@ inline PlanePose with_plane(const WallPose& s) {
   return {s.pose(), s.normal()};
 }
 inline PlanePose with_plane(const PitchedPose& s) {
+  return {s.pose(), Eigen::Vector3d::UnitY()};
+}
+inline PlanePose with_plane(const UprightPose& s) {
   return {s.pose(), Eigen::Vector3d::UnitY()};
 }
 

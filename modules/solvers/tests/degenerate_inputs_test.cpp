@@ -128,11 +128,17 @@ const std::vector<Degeneracy>& degeneracies() {
   return kList;
 }
 
+/// What makes the horizon special is a motion along it, or a sample that a line cannot hold.
+bool sees_the_horizon_as_any_line(const Solver& solver) {
+  return solver.motion == SolverMotion::kUpright;
+}
+
 /// "empty" when it never returns anything, "–" when the case is not degenerate for the solver.
 std::string behaviour(const Solver& solver, const Degeneracy& degeneracy) {
   if (solver.sample == 1 && degeneracy.inputs == &coincident) return "–";
   if (!on_any_surface(solver) && degeneracy.inputs == &coincident_planes) return "–";
   if (solver.sample == 1 && degeneracy.inputs == &coincident_planes) return "–";
+  if (sees_the_horizon_as_any_line(solver) && degeneracy.inputs == &horizon) return "–";
   SceneGenerator scene(77);
   int answered = 0, asked = 0;
   for (int i = 0; i < kScenes; ++i) {

@@ -128,7 +128,7 @@ void add_findings(const ExperimentResult* result, Claim& claim, Judge&& judge) {
 
 [[nodiscard]] Claim turned_wall_claim(const StudyResult& result) {
   Claim claim{"turned_wall",
-              "On a wall of any orientation, 1AC vertical beats 4PC and 2AC at all wall angles, "
+              "On a wall of any orientation, 1AC wall beats 4PC and 2AC at all wall angles, "
               "forward and sideways."};
   add_findings(result.find("forward_wall"), claim, wins_everywhere);
   add_findings(result.find("sideways_wall"), claim, wins_everywhere);

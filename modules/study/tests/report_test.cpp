@@ -31,7 +31,7 @@ TEST(StudyReport, CsvHasARowPerPointAndMethod) {
   const auto lines = lines_of(csv_of(result.experiments[0], figure, 40));
   ASSERT_EQ(lines.size(), 1U + 17U * 3U);
   EXPECT_EQ(lines[0], "wall_angle_deg,method,trials,failures,mean_deg,median_deg,p95_deg");
-  EXPECT_EQ(lines[1].rfind("-80.0,1AC vertical,40,", 0), 0U) << lines[1];
+  EXPECT_EQ(lines[1].rfind("-80.0,1AC wall,40,", 0), 0U) << lines[1];
   EXPECT_EQ(lines[2].rfind("-80.0,4PC,40,", 0), 0U);
   EXPECT_EQ(lines.back().rfind("80.0,2AC,40,", 0), 0U);
 }

@@ -1,6 +1,7 @@
 #pragma once
 
-#include "oneac/geometry/affine_correspondence.h"
+#include "math/epipolar_rows.h"
+
 #include "oneac/solvers/relpose_1ac_planar_pitch.h"
 
 #include <Eigen/Core>
@@ -8,19 +9,6 @@
 #include <cmath>
 
 namespace oneac::internal {
-
-using Vector9 = Eigen::Matrix<double, 9, 1>;
-
-/// The three equations of one correspondence on a whole E, row by row.
-[[nodiscard]] inline Eigen::Matrix<double, 3, 9> epipolar_rows(const AffineCorrespondence& ac) {
-  const double x = ac.x1.x(), y = ac.x1.y(), u = ac.x2.x(), v = ac.x2.y();
-  const double a1 = ac.A(0, 0), a2 = ac.A(0, 1), a3 = ac.A(1, 0), a4 = ac.A(1, 1);
-  Eigen::Matrix<double, 3, 9> m;
-  m << u * x, u * y, u, v * x, v * y, v, x, y, 1.0,                   //
-      a1 * x + u, a1 * y, a1, a3 * x + v, a3 * y, a3, 1.0, 0.0, 0.0,  //
-      a2 * x, a2 * y + u, a2, a4 * x, a4 * y + v, a4, 0.0, 1.0, 0.0;
-  return m;
-}
 
 /// Yaw, heading of t (t_x = sin, t_z = cos) and pitch.
 struct Angles {
@@ -38,7 +26,9 @@ struct Essential {
   Vector9 e;
   Eigen::Matrix<double, 9, 3> J;
 
-  explicit Essential(const Angles& a) {
+  Angles angles;
+
+  explicit Essential(const Angles& a) : angles(a) {
     const double ch = std::cos(a.heading), sh = std::sin(a.heading);
     const double cs = std::cos(a.heading + a.alpha), ss = std::sin(a.heading + a.alpha);
     const double cp = std::cos(a.pitch), sp = std::sin(a.pitch);
@@ -46,6 +36,10 @@ struct Essential {
     J.col(0) << 0.0, 0.0, 0.0, -cp * ss, 0.0, -cp * cs, sp * ss, 0.0, sp * cs;
     J.col(1) << 0.0, sh, 0.0, -cp * ss, sp * ch, -cp * cs, sp * ss, cp * ch, sp * cs;
     J.col(2) << 0.0, 0.0, 0.0, -sp * cs, cp * sh, sp * ss, -cp * cs, -sp * sh, cp * ss;
+  }
+
+  [[nodiscard]] Essential moved(const Eigen::Vector3d& by) const {
+    return Essential({angles.alpha + by.x(), angles.heading + by.y(), angles.pitch + by.z()});
   }
 };
 

@@ -16,8 +16,8 @@
 namespace oneac {
 
 /// Motions that solvers assume. All but kAny want levelled cameras: Y along gravity in both views
-/// (kPitched: in the first one).
-enum class SolverMotion { kPlanar, kPitched, kCircular, kAny };
+/// (kPitched: in the first one). kUpright: a yaw and any translation.
+enum class SolverMotion { kPlanar, kPitched, kCircular, kUpright, kAny };
 
 /// What the correspondences of a sample lie on; kAny and kNoPlane: each on a plane of its own.
 enum class SolverSurface { kGround, kSideWall, kFrontWall, kWall, kPlane, kAny, kNoPlane };

@@ -20,7 +20,7 @@ enum class DataUse {
 };
 
 /// Candidate poses from the four correspondences of a trial. Signs are resolved by cheirality, so
-/// up to two remain for 1AC vertical and for both homographies.
+/// up to two remain for 1AC wall and for both homographies.
 [[nodiscard]] PoseSet candidates_of(StudyMethod method, AcSpan correspondences, DataUse use);
 
 }  // namespace oneac

@@ -18,6 +18,7 @@ inline RelativePose motion_of(const Solver& solver, SceneGenerator& scene) {
     const double half = 0.5 * std::atan2(T.R(2, 0), T.R(0, 0));
     T.t = T.t.norm() * Eigen::Vector3d(std::sin(half), 0.0, -std::cos(half));
   }
+  if (solver.motion == SolverMotion::kUpright) T.t.y() = scene.uniform(-1.0, 1.0);
   if (solver.motion == SolverMotion::kPitched) {
     const Eigen::Matrix3d Q = pitch_rotation(scene.uniform(-0.05, 0.05));
     T = {Q.transpose() * T.R, Q.transpose() * T.t};
