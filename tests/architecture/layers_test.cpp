@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
 #include <map>
@@ -115,19 +116,48 @@ TEST(Layers, MrptStaysInItsModules) {
   }
 }
 
-TEST(Layers, NoFileGrowsWithoutBound) {
+/// Lengths of the functions of a file as clang-format lays them out: from a line that begins in
+/// this column to the brace that stands alone in it, unless it begins a block of statements.
+std::vector<int> function_lengths(const fs::path& file, std::size_t column) {
+  std::vector<int> lengths;
+  const std::string end = std::string(column, ' ') + "}";
+  const std::regex block(R"(^ *(if|for|while|switch|do|try)\b.*|^ *\{$)");
+  std::ifstream in(file);
+  int number = 0, begin = 0;
+  bool is_function = false;
+  for (std::string line; std::getline(in, line);) {
+    ++number;
+    if (line == end) {
+      if (is_function) lengths.push_back(number - begin + 1);
+    } else if (line.find_first_not_of(' ') == column && line[column] != '}' &&
+               line[column] != '/' && line[column] != '#' && line[column] != ':') {
+      begin = number;
+      is_function = !std::regex_match(line, block);
+    }
+  }
+  return lengths;
+}
+
+TEST(Layers, FunctionsStayShort) {
+  std::vector<int> lengths;
   for (const auto& [module, allowed] : kMayInclude) {
     if (!fs::exists(kModules / module)) continue;
     for (const auto& entry : fs::recursive_directory_iterator(kModules / module)) {
       const std::string extension = entry.path().extension().string();
       const bool test = entry.path().string().find("/tests/") != std::string::npos;
       if (test || (extension != ".h" && extension != ".cpp")) continue;
-      std::ifstream in(entry.path());
-      int lines = 0;
-      for (std::string line; std::getline(in, line);) ++lines;
-      EXPECT_LE(lines, extension == ".h" ? 200 : 250) << entry.path();
+      for (const std::size_t column : {std::size_t{0}, std::size_t{2}}) {
+        for (const int lines : function_lengths(entry.path(), column)) {
+          EXPECT_LE(lines, 60) << entry.path();
+          lengths.push_back(lines);
+        }
+      }
     }
   }
+  ASSERT_GT(lengths.size(), 1000U);
+  const auto at = lengths.begin() + static_cast<std::ptrdiff_t>(lengths.size() * 95 / 100);
+  std::nth_element(lengths.begin(), at, lengths.end());
+  EXPECT_LE(*at, 25) << "95 % of the functions";
 }
 
 }  // namespace
