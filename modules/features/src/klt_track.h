@@ -30,6 +30,7 @@ struct KltTrack {
   bool reference_is_here = false;            ///< it was taken at u in the anchor frame
   std::size_t window = 0;                    ///< to try first, PatchMatch::window
   int at_rest = 0;                           ///< pairs it rested while it had to move
+  bool like_the_car = false;                 ///< it rests where only the car can, and did before
 };
 
 }  // namespace oneac::internal

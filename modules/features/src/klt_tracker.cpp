@@ -80,9 +80,7 @@ TrackedPair KltTracker::advance(std::shared_ptr<const FrameFeatures> now, const 
     frame_ = 0;
   } else {
     ++frame_;
-    if (is_standing(tracks_, anchor_->pyramid, frame->pyramid, options_.klt.standing_px)) {
-      return stand();
-    }
+    if (stands(*frame)) return stand();
     const MotionPrediction motion(hint);
     pair = take(*frame, motion, follow(frame, motion));
   }
@@ -100,6 +98,12 @@ void KltTracker::learn_car(const KltFrame& now, const MotionHint& hint) {
       std::remove_if(tracks_.begin(), tracks_.end(),
                      [this](const KltTrack& track) { return !car_mask_.usable(track.u); }),
       tracks_.end());
+}
+
+bool KltTracker::stands(const KltFrame& now) const {
+  // Where most tracks are the car's own, they stand whatever the car does.
+  if (options_.mask.learn && car_mask_.shows_travel()) return false;
+  return is_standing(tracks_, anchor_->pyramid, now.pyramid, options_.klt.standing_px);
 }
 
 TrackedPair KltTracker::stand() {
@@ -157,7 +161,9 @@ TrackedPair KltTracker::take(const KltFrame& now, const MotionPrediction& motion
     KltTrack& track = tracks_[i];
     if (!matches[i] || !holds(track, now, *matches[i])) continue;
     const Eigen::Vector2d& u2 = matches[i]->warp.centre;
-    const bool rests = static_points_.rests(track, u2 - track.u, motion);
+    const bool by_place = options_.mask.learn && car_mask_.must_move(track.u);
+    const bool rests = static_points_.rests(track, u2 - track.u, motion, by_place);
+    if (rests && by_place) car_mask_.suspect(track.u);
     if (static_points_.is_static(track)) {
       static_points_.block(cell_of(now, u2));
       continue;

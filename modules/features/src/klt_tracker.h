@@ -37,6 +37,7 @@ class KltTracker : public AcTracker {
 
   /// Looks for the car in the image; tracks on what is known to be the car end.
   void learn_car(const KltFrame& now, const MotionHint& hint);
+  [[nodiscard]] bool stands(const KltFrame& now) const;
   [[nodiscard]] TrackedPair stand();
   [[nodiscard]] Matches follow(const std::shared_ptr<const KltFrame>& now,
                                const MotionPrediction& motion);

@@ -13,12 +13,13 @@ constexpr int kUncertainFactor = 4;
 }  // namespace
 
 bool StaticPoints::rests(KltTrack& track, const Eigen::Vector2d& flow,
-                         const MotionPrediction& expected) const {
+                         const MotionPrediction& expected, bool by_place) const {
   const bool at_rest = flow.norm() < kRest;
   auto warp = expected.on_road(track.u);
   if (!warp) warp = expected.far_away(track.u);
-  const bool must_move = warp && (warp->centre - track.u).norm() > kMustMove;
+  const bool must_move = by_place || (warp && (warp->centre - track.u).norm() > kMustMove);
   const bool others_move = !expected.is_metric() && median_flow_px_ > kMustMove;
+  track.like_the_car = at_rest && (by_place || track.like_the_car);
   if (!at_rest) {
     track.at_rest = 0;
   } else if (must_move) {
@@ -26,7 +27,7 @@ bool StaticPoints::rests(KltTrack& track, const Eigen::Vector2d& flow,
   } else if (others_move) {
     ++track.at_rest;
   }
-  return at_rest && must_move;
+  return at_rest && (must_move || track.like_the_car);
 }
 
 bool StaticPoints::is_static(const KltTrack& track) const {

@@ -22,9 +22,11 @@ class StaticPoints {
     frame_ = frame;
     median_flow_px_ = median_flow_px;
   }
-  /// Whether the track rested while it had to move in this pair; counts it in the track.
+  /// Whether the track rested while it had to move in this pair, or has rested since it had to by
+  /// its place; counts it in the track.
+  /// @param by_place  it had to move whatever the motion that is expected
   [[nodiscard]] bool rests(KltTrack& track, const Eigen::Vector2d& flow,
-                           const MotionPrediction& expected) const;
+                           const MotionPrediction& expected, bool by_place) const;
   /// Whether the track has rested so long that it is no part of the scene.
   [[nodiscard]] bool is_static(const KltTrack& track) const;
   /// Keeps corners of this cell from being taken for a while.

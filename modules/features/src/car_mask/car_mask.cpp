@@ -8,14 +8,16 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace oneac::internal {
 namespace {
 
 constexpr std::size_t kFine = 2;    // pyramid level of the structure: a quarter of the image
 constexpr std::size_t kCoarse = 3;  // of the test for travel: 2 px there are 16 of the image
-constexpr double kUsualWidth = 1242.0, kUsualCell = 16.0;        // [px]
-constexpr int kEvery = 5;                                        // [frames] between decisions
+constexpr double kUsualWidth = 1242.0, kUsualCell = 16.0;  // [px]
+constexpr int kEvery = 5;                                  // [frames] between decisions
+constexpr std::size_t kOldest = 4;  // [frames] over more of them few near pixels are found again
 constexpr int kKnown = 20, kForgotten = 0, kMostEvidence = 100;  // [frames] of evidence
 constexpr double kLargestShare = 0.45;  // of the image: more is no drive that can be measured
 
@@ -25,6 +27,17 @@ constexpr double kLargestShare = 0.45;  // of the image: more is no drive that c
 constexpr double kLow = 6.0 * kDegree, kDistant = 1.5 * kDegree;
 // A direction of travel that differs more from the camera's level axis is not believed.
 constexpr double kSteadiest = 0.97;  // [-] cosine of 14°
+
+// On a bend that a kerb or a lane line shares, these rest in the image and lie aslant of the flow
+// that a straight way would give: by 18° at most, five heights ahead, on a bend of this radius.
+constexpr double kTightest = 33.0;  // [camera heights] 50 m under a camera at 1.5 m
+// [rad] a frame: unsteady steering, and that bend at 4 m/s and 25 frames a second
+constexpr double kStraight = 0.25 * kDegree;
+
+constexpr std::size_t kStretches = 16;  // of the image's width
+constexpr int kLeastVotes = 2;          // one track may be a wrong match
+constexpr long kSuspected = 10;         // [frames] a car that sets off creeps no longer then
+constexpr double kMargin = 4.0;         // [px] of an outline
 
 }  // namespace
 
@@ -70,40 +83,79 @@ void CarMask::set_size(const ImagePyramid& now) {
   grid_.rows = (fine.height + grid_.side - 1) / grid_.side;
   evidence_.assign(grid_.size(), 0);
   rests_.assign(grid_.size(), false);
+  suspicions_.assign(kStretches, {});
   car_.assign(grid_.size(), false);
 }
 
 bool CarMask::observe(const ImagePyramid& now, const MotionHint& hint) {
   if (now.levels.size() <= kCoarse) return false;
   set_size(now);
-  const auto outlook = CarMask::outlook(hint);
-  const bool adds = outlook && travels(now.levels[kCoarse], *outlook);
-  before_.assign(1, now.levels[kCoarse]);
-  if (!adds) return false;
-  const int first = outlook->first_row_below(-std::sin(kDistant), width_, height_);
-  structure_.add(now.levels[kFine], outlook->foe / (1 << kFine), first / (1 << kFine));
+  ++frame_;
+  outlook_ = outlook(hint);
+  shows_travel_ = false;
+  if (!outlook_) return false;
+  const Travel travel = travel_to(smoothed_for_travel(now.levels[kCoarse]), *outlook_);
+  if (!travel.shown || !is_straight(travel, hint)) return false;
+  const int first = outlook_->first_row_below(-std::sin(kDistant), width_, height_);
+  structure_.add(now.levels[kFine], outlook_->foe / (1 << kFine), first / (1 << kFine));
   if (++undecided_ < kEvery) return false;
   undecided_ = 0;
-  decide(*outlook);
+  decide(*outlook_);
   return true;
 }
 
-bool CarMask::travels(const PyramidLevel& now, const Outlook& outlook) const {
-  if (before_.empty()) return false;
-  const int end = outlook.first_row_below(std::sin(kLow), width_, height_);
+TravelView CarMask::view_of(const Outlook& outlook) const {
   constexpr double kScale = 1.0 / (1 << kCoarse);
-  return shows_travel(before_.front(), now, kScale * outlook.foe, static_cast<int>(kScale * end));
+  TravelView view;
+  view.centre = kScale * Eigen::Vector2d(outlook.camera.cx, outlook.camera.cy);
+  view.foe = kScale * outlook.foe;
+  view.focal = kScale * outlook.camera.focal_px();
+  view.end_row =
+      static_cast<int>(kScale * outlook.first_row_below(std::sin(kLow), width_, height_));
+  return view;
+}
+
+Travel CarMask::travel_to(PyramidLevel now, const Outlook& outlook) {
+  const TravelView view = view_of(outlook);
+  Travel travel;
+  if (!before_.empty()) travel = internal::shows_travel(before_.back(), now, view);
+  shows_travel_ = travel.shown;
+  if (!travel.shown && before_.size() > 1) {
+    travel = internal::shows_travel(before_.front(), now, view);
+    travel.yaw /= static_cast<double>(before_.size());
+  }
+  if (travel.shown || before_.size() > kOldest) before_.clear();
+  before_.push_back(std::move(now));
+  return travel;
+}
+
+bool CarMask::is_straight(const Travel& travel, const MotionHint& hint) {
+  const bool scaled = hint.scaled && hint.T_2_1 && hint.T_2_1->is_finite();
+  const double step = scaled ? hint.T_2_1->t.norm() : 0.0;
+  return std::abs(travel.yaw) <= std::max(kStraight, step / kTightest);
+}
+
+bool CarMask::must_move(const Eigen::Vector2d& u) const {
+  return shows_travel_ && !knows_ && outlook_ && outlook_->below_horizon(u) > std::sin(kLow);
+}
+
+void CarMask::break_sequence() {
+  before_.clear();
+  shows_travel_ = false;
 }
 
 void CarMask::decide(const Outlook& outlook) {
   const std::vector<CellTrace> traces = structure_.traces(grid_);
+  const int frames = decided_ ? kEvery : structure_.frames();
+  decided_ = structure_.can_tell();
+  knows_ = structure_.frames() >= kKnown;
   std::vector<CellState> cells(grid_.size());
   const double cell_px = grid_.side * (1 << kFine);
   for (int row = 0; row < grid_.rows; ++row) {
     for (int column = 0; column < grid_.columns; ++column) {
       const std::size_t i = grid_.at(column, row);
       const int vote = traces[i] == CellTrace::kRests ? 1 : traces[i] == CellTrace::kMoves ? -1 : 0;
-      evidence_[i] = std::clamp(evidence_[i] + vote * kEvery, kForgotten, kMostEvidence);
+      evidence_[i] = std::clamp(evidence_[i] + vote * frames, kForgotten, kMostEvidence);
       if (evidence_[i] >= kKnown) rests_[i] = true;
       if (evidence_[i] <= kForgotten) rests_[i] = false;
       const double sine = outlook.below_horizon(cell_px * Eigen::Vector2d(column + 0.5, row + 0.5));
@@ -118,12 +170,36 @@ void CarMask::decide(const Outlook& outlook) {
   any_ = !refused_ && share > 0.0;
 }
 
+std::size_t CarMask::stretch_of(double column) const {
+  const double stretch = column * static_cast<double>(kStretches) / width_;
+  return static_cast<std::size_t>(std::clamp(stretch, 0.0, kStretches - 1.0));
+}
+
+void CarMask::suspect(const Eigen::Vector2d& u) {
+  Suspicion& suspicion = suspicions_[stretch_of(u.x())];
+  if (frame_ >= suspicion.until) suspicion = {0, u.y(), 0};
+  ++suspicion.votes;
+  suspicion.top = std::min(suspicion.top, u.y());
+  suspicion.until = frame_ + kSuspected;
+}
+
+bool CarMask::is_suspected(const Eigen::Vector2d& u) const {
+  if (knows_ || suspicions_.empty()) return false;
+  const Suspicion& suspicion = suspicions_[stretch_of(u.x())];
+  return suspicion.votes >= kLeastVotes && frame_ < suspicion.until &&
+         u.y() > suspicion.top - kMargin;
+}
+
 bool CarMask::usable(const Eigen::Vector2d& u) const {
-  if (!any_) return true;
+  return !is_suspected(u) && !is_car(u);
+}
+
+bool CarMask::is_car(const Eigen::Vector2d& u) const {
+  if (!any_) return false;
   const double cell_px = grid_.side * (1 << kFine);
   const int column = std::clamp(static_cast<int>(u.x() / cell_px), 0, grid_.columns - 1);
   const int row = std::clamp(static_cast<int>(u.y() / cell_px), 0, grid_.rows - 1);
-  return !car_[grid_.at(column, row)];
+  return car_[grid_.at(column, row)];
 }
 
 GreyImage CarMask::picture() const {
@@ -132,7 +208,7 @@ GreyImage CarMask::picture() const {
   GreyImage image(width_, height_, kWhite);
   for (int v = 0; v < height_; ++v) {
     for (int u = 0; u < width_; ++u) {
-      if (!usable(Eigen::Vector2d(u, v))) image.row(v)[u] = 0;
+      if (is_car(Eigen::Vector2d(u, v))) image.row(v)[u] = 0;
     }
   }
   return image;

@@ -3,6 +3,7 @@
 #include "../image_pyramid.h"
 #include "car_region.h"
 #include "static_structure.h"
+#include "travel.h"
 
 #include "oneac/features/ac_tracker.h"
 
@@ -26,14 +27,22 @@ class CarMask {
   /// where known, direction of travel
   /// @return whether it was decided anew what the car is
   bool observe(const ImagePyramid& now, const MotionHint& hint);
-  /// Whether this place of the image is not known to be the car. [px of level 0]
+  /// Whether the image given last shows travel since the one before, by itself.
+  [[nodiscard]] bool shows_travel() const { return shows_travel_; }
+  /// Whether what is here must have moved to the image given last, or be the car: only until there
+  /// was enough travel to tell what the car is. [px of level 0]
+  [[nodiscard]] bool must_move(const Eigen::Vector2d& u) const;
+  /// Takes the place of a track that must_move() and rests: what lies below it is not used for a
+  /// while. The reflections in a bonnet move, and only its dust tells that they are no road.
+  void suspect(const Eigen::Vector2d& u);
+  /// Whether this place of the image is not known to be the car, nor suspected. [px of level 0]
   [[nodiscard]] bool usable(const Eigen::Vector2d& u) const;
   /// Black where the car is, white elsewhere; empty while nothing was learned.
   [[nodiscard]] GreyImage picture() const;
   /// Whether the last decision found more car than an image can lose, and dropped it.
   [[nodiscard]] bool is_refused() const { return refused_; }
   /// Another image does not follow the last one; what was learned holds.
-  void break_sequence() { before_.clear(); }
+  void break_sequence();
 
  private:
   /// Where to look in an image, in pixels of level 0.
@@ -45,16 +54,35 @@ class CarMask {
     [[nodiscard]] int first_row_below(double sine, int width, int height) const;
   };
   [[nodiscard]] static std::optional<Outlook> outlook(const MotionHint& hint);
-  [[nodiscard]] bool travels(const PyramidLevel& now, const Outlook& outlook) const;
+  /// What rests in one stretch of columns, before anything is known.
+  struct Suspicion {
+    int votes = 0;
+    double top = 0.0;  ///< [px] row of the highest
+    long until = 0;    ///< [frames] it is forgotten then
+  };
+  [[nodiscard]] std::size_t stretch_of(double column) const;
+  [[nodiscard]] bool is_car(const Eigen::Vector2d& u) const;
+  [[nodiscard]] bool is_suspected(const Eigen::Vector2d& u) const;
+  /// Whether the car goes nearly straight, so that what passes flows along r of StaticStructure.
+  [[nodiscard]] static bool is_straight(const Travel& travel, const MotionHint& hint);
+  [[nodiscard]] TravelView view_of(const Outlook& outlook) const;
+  /// Travel since the image before or, where that shows too little, since the last that showed any.
+  [[nodiscard]] Travel travel_to(PyramidLevel now, const Outlook& outlook);
   void set_size(const ImagePyramid& now);
   void decide(const Outlook& outlook);
 
   int width_ = 0;
   int height_ = 0;
   CellGrid grid_;
-  std::vector<PyramidLevel> before_;  ///< the coarse level of the image before; none or one
+  std::vector<PyramidLevel> before_;  ///< coarse levels since the last that showed travel
+  std::optional<Outlook> outlook_;    ///< of the image given last
+  bool shows_travel_ = false;
   StaticStructure structure_;
+  std::vector<Suspicion> suspicions_;
+  long frame_ = 0;
   int undecided_ = 0;          ///< frames added since the last decision
+  bool decided_ = false;       ///< whether any decision rested on enough frames
+  bool knows_ = false;         ///< whether what always rested would be known by now
   std::vector<int> evidence_;  ///< [frames] of rest less those of motion, per cell
   std::vector<bool> rests_;    ///< with hysteresis
   std::vector<bool> car_;

@@ -47,9 +47,13 @@ void StaticStructure::add(const PyramidLevel& level, const Eigen::Vector2d& foe,
   }
 }
 
+bool StaticStructure::can_tell() const {
+  return frames_ >= kLeastFrames;
+}
+
 std::vector<CellTrace> StaticStructure::traces(const CellGrid& grid) const {
   std::vector<CellTrace> traces(grid.size(), CellTrace::kNothing);
-  if (frames_ < kLeastFrames) return traces;
+  if (!can_tell()) return traces;
   for (int row = 0; row < grid.rows; ++row) {
     for (int column = 0; column < grid.columns; ++column) {
       traces[grid.at(column, row)] = trace(grid, column, row);

@@ -41,6 +41,10 @@ class StaticStructure {
   void add(const PyramidLevel& level, const Eigen::Vector2d& foe, int first_row);
   /// One trace per cell. Before enough frames were added all are kNothing.
   [[nodiscard]] std::vector<CellTrace> traces(const CellGrid& grid) const;
+  /// Frames in the mean.
+  [[nodiscard]] int frames() const { return frames_; }
+  /// Whether there are enough of them.
+  [[nodiscard]] bool can_tell() const;
   void clear();
 
  private:
