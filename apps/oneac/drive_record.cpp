@@ -3,6 +3,7 @@
 #include "oneac/frontend/trajectory_uncertainty.h"
 
 #include <algorithm>
+#include <cstddef>
 #include <iterator>
 #include <utility>
 
@@ -24,6 +25,15 @@ void withdraw_metres_of(StepResult& step) {
 }
 
 }  // namespace
+
+double DriveRecord::car_mask_share() const {
+  if (car_mask.empty()) return 0.0;
+  std::ptrdiff_t dark = 0;
+  for (int v = 0; v < car_mask.height(); ++v) {
+    dark += std::count(car_mask.row(v), car_mask.row(v) + car_mask.width(), 0);
+  }
+  return static_cast<double>(dark) / (car_mask.width() * car_mask.height());
+}
 
 bool DriveRecord::has_scale() const {
   // A standing step has zero metres without any scale.

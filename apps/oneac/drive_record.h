@@ -36,8 +36,9 @@ struct DriveRecord {
   double camera_height = 0.0;        ///< [m] in use; 0: none
   std::string scale_source;          ///< the parameter front_end.scale.source
   GreyImage car_mask;                ///< FrontEnd::car_mask() at the end
+  bool car_mask_refused = false;     ///< FrontEnd::car_mask_refused() at the end
   SourceReport source;
-  std::optional<TimeSpan> gps;            ///< from the first fix to the last, of what was read of the log
+  std::optional<TimeSpan> gps;  ///< from the first fix to the last, of what was read of the log
   std::vector<std::string> setup_faults;  ///< of camera and log, at the end: nothing is in metres
   std::size_t out_of_order = 0;           ///< images left out: not later than the one before
   bool interrupted = false;
@@ -45,6 +46,8 @@ struct DriveRecord {
 
   /// Whether lengths are metres, at least from some step on.
   [[nodiscard]] bool has_scale() const;
+  /// Of the image, dark in car_mask. [-]
+  [[nodiscard]] double car_mask_share() const;
   /// Takes over what has become final.
   void take(Settled settled);
   /// Nothing is in metres, the steps before the fault was found neither.

@@ -151,6 +151,7 @@ class Drive {
     record_.scale_uncertainty = front_end_.scale_uncertainty();
     record_.camera_height = front_end_.camera_height();
     record_.car_mask = front_end_.car_mask();
+    record_.car_mask_refused = front_end_.car_mask_refused();
     record_.setup_faults = front_end_.setup_faults();
     const std::string& names = record_.source.names_out_of_order;
     if (!names.empty()) record_.setup_faults.push_back(names);

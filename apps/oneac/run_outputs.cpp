@@ -139,6 +139,11 @@ std::vector<std::string> notes_about(const DriveRecord& record) {
   }
   if (const std::string gps = gps_beside_images(record); !gps.empty()) notes.push_back(gps);
   notes.insert(notes.end(), record.setup_faults.begin(), record.setup_faults.end());
+  if (record.car_mask_refused) {
+    notes.push_back(
+        "nearly half of the image rests while the car travels, more than its own parts can be, so "
+        "none of it was masked; mask what is the car's: front_end.features.mask.polygon");
+  }
   const bool told = !record.setup_faults.empty();
   if (!told && !record.has_scale() && record.frames.size() > 1) {
     notes.push_back(about_missing_scale(record));

@@ -228,6 +228,8 @@ std::string summary_json(const DriveRecord& record, const RunEvaluation& evaluat
   json["scale_uncertainty"] =
       std::isfinite(record.scale_uncertainty) ? Json(record.scale_uncertainty) : Json(nullptr);
   json["tilt_source"] = options.front_end.tilt.source;
+  json["car_mask_share"] = record.car_mask_share();
+  json["car_mask_refused"] = record.car_mask_refused;
   json["setup_faults"] = record.setup_faults;
   json["counts"] = counts_json(record);
   json["camera"] = camera_json(record);
@@ -251,6 +253,10 @@ std::string summary_text(const DriveRecord& record, const RunEvaluation& evaluat
   std::string text = std::to_string(record.frames.size()) + " frames, " +
                      fixed_text(path_length(record.camera_trajectory().poses), 1) + " " + unit +
                      ", metric: " + metric + "\n";
+  if (const double share = record.car_mask_share(); share > 0.0) {
+    text += "learned as the car's own: " + fixed_text(100.0 * share, 1) +
+            " % of the image (mask.png)\n";
+  }
   if (record.source.undistorted_by_log) {
     text +=
         "images undistorted by the calibration in the log; if they are rectified, give theirs: "

@@ -30,6 +30,7 @@ class KltTracker : public AcTracker {
                                     const MotionHint& hint) override;
   void reset() override;
   [[nodiscard]] GreyImage car_mask() const override { return car_mask_.picture(); }
+  [[nodiscard]] bool car_mask_refused() const override { return car_mask_.is_refused(); }
   [[nodiscard]] ImageView unused() const override { return unused_.view(); }
 
  private:

@@ -186,6 +186,10 @@ GreyImage FrontEnd::car_mask() const {
   return tracker_->car_mask();
 }
 
+bool FrontEnd::car_mask_refused() const {
+  return tracker_->car_mask_refused();
+}
+
 double FrontEnd::camera_height() const {
   return odometry_->scale().camera_height();
 }

@@ -44,6 +44,8 @@ class AcTracker {
   /// What belongs to the car as learned so far: black (0) where it does, white (255) elsewhere, of
   /// the images' size. Empty while nothing was learned, and for trackers that do not learn.
   [[nodiscard]] virtual GreyImage car_mask() const { return {}; }
+  /// Whether more of the images looked like the car than a drive can lose, so that none is masked.
+  [[nodiscard]] virtual bool car_mask_refused() const { return false; }
   /// What of the images is not used: dark (0) where a mask was given or the car is known to be, of
   /// the images' size; empty where all is used. Valid until the next call of advance().
   [[nodiscard]] virtual ImageView unused() const { return {}; }

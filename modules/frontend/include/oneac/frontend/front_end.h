@@ -94,6 +94,8 @@ class FrontEnd : public mrpt::system::COutputLogger {
   /// What belongs to the car as learned so far (bonnet, wipers): black there, white elsewhere, of
   /// the images' size; empty while nothing was learned.
   [[nodiscard]] GreyImage car_mask() const;
+  /// Whether more of the images looked like the car than a drive can lose, so that none is masked.
+  [[nodiscard]] bool car_mask_refused() const;
   /// [m] height of the camera above the road in use; 0 when unknown, then nothing is metric.
   [[nodiscard]] double camera_height() const;
   /// What speaks against calibration and mount as they are believed, one line each with its cure;
