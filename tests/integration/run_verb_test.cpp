@@ -95,6 +95,27 @@ TEST_F(RunVerb, IsNotMetricWithoutACameraHeight) {
   EXPECT_EQ(nlohmann::json::parse(read_file(out / "summary.json"))["metric"], "none");
 }
 
+TEST_F(RunVerb, SaysWhatItLearnedOfTheCar) {
+  const fs::path with_bonnet = scratch() / "bonnet", out = scratch() / "bonnet_out";
+  ASSERT_EQ(
+      oneac_program({"simulate", "-o", with_bonnet.string(), "--frames", "30", "--bonnet", "0.25"})
+          .exit_code,
+      0);
+  const ProgramResult result =
+      oneac_program({"run", (with_bonnet / "simulated.rawlog").string(), "-o", out.string()});
+  EXPECT_EQ(result.exit_code, 0);
+  EXPECT_NE(result.out.find("learned as the car's own: "), std::string::npos) << result.out;
+  EXPECT_TRUE(fs::exists(out / "mask.png"));
+  EXPECT_NE(read_file(out / "report.html").find("What belongs to the car"), std::string::npos);
+  const auto summary = nlohmann::json::parse(read_file(out / "summary.json"));
+  EXPECT_GT(summary["car_mask_share"], 0.05);
+  EXPECT_LT(summary["car_mask_share"], 0.25);
+  EXPECT_EQ(summary["car_mask_refused"], false);
+  const fs::path bare = run("a");
+  EXPECT_FALSE(fs::exists(bare / "mask.png"));
+  EXPECT_EQ(nlohmann::json::parse(read_file(bare / "summary.json"))["car_mask_share"], 0.0);
+}
+
 TEST_F(RunVerb, ComparesWithThePosesBesideTheLog) {
   const auto json = nlohmann::json::parse(read_file(run("a") / "summary.json"));
   EXPECT_FALSE(json["reference"]["errors"].is_null());

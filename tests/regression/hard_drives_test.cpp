@@ -37,6 +37,7 @@ const std::vector<Row>& rows() {
   static const std::vector<std::string> kHeight = {"--set", "front_end.camera_height=1.5"};
   static const std::vector<Row> kRows = {
       {"Bonnet", {"--hard", "bonnet"}, Outcome::kRight},
+      {"BonnetInTown", {"--frames", "60", "--bonnet", "0.25"}, Outcome::kRight},
       {"Rain", {"--hard", "rain"}, Outcome::kRight},
       {"ExposureJumps", {"--hard", "exposure"}, Outcome::kRight},
       {"Night", {"--hard", "night"}, Outcome::kHonest},

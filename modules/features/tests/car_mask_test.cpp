@@ -31,6 +31,7 @@ struct Drive {
   bool shadow = false;                  ///< of the car itself, on the road ahead
   bool lines = false;                   ///< lane lines without gaps
   bool traffic = false;                 ///< a vehicle passes left, another goes away right
+  bool text = false;                    ///< burnt into the picture near its lower border
 };
 
 constexpr double kFar = 16.0;  // [camera heights] where all that is farther stands
@@ -47,6 +48,7 @@ constexpr int kShadowLeft = 180, kShadowRight = 300, kShadowTop = 210;  // [px]
 
 /// What travels with the camera on the road: its shadow, lines that lead to the horizon.
 double marked(const Drive& drive, double grey, int u, int v) {
+  if (drive.text && v > 296 && v < 312 && u > 20 && u < 200) return (u / 6 + v / 8) % 2 * 240.0;
   if (drive.shadow && u > kShadowLeft && u < kShadowRight && v > kShadowTop) grey *= 0.4;
   const double lane = v > kHorizon ? (u - 0.5 * kWidth) / (v - kHorizon) : 0.0;
   return drive.lines && std::abs(std::abs(lane) - 1.2) < 0.08 ? 250.0 : grey;
@@ -154,6 +156,16 @@ TEST(CarMask, LeavesTheRoadInsideTheCarsOwnShadow) {
   EXPECT_TRUE(mask.usable({240.0, 290.0}));
   EXPECT_TRUE(mask.usable({100.0, 290.0}));
   EXPECT_LT(share_in_rows(mask.picture(), kShadowTop + 30, kHeight), 0.2);
+}
+
+TEST(CarMask, LearnsATextAtTheLowerBorder) {
+  Drive drive;
+  drive.text = true;
+  CarMask mask;
+  watch(mask, drive, 0, 40);
+  EXPECT_FALSE(mask.usable({100.0, 304.0}));
+  EXPECT_TRUE(mask.usable({100.0, 270.0}));
+  EXPECT_TRUE(mask.usable({300.0, 304.0}));
 }
 
 TEST(CarMask, LeavesLaneLinesThatLookTheSameInEveryImage) {
@@ -269,6 +281,22 @@ TEST(CarRegion, DoesNotFillWhereTheRoadIsSeenBelow) {
   const std::vector<bool> car = car_region(grid, cells);
   EXPECT_TRUE(car[grid.at(16, 14)]);
   EXPECT_FALSE(car[grid.at(16, 19)]);
+}
+
+// Reflections move. They lie between the bonnet's edge and the dust below them.
+TEST(CarRegion, FillsBetweenTheOutlineAndTheLowestRestWhereMostMoves) {
+  const CellGrid grid = grid_of(40, 20);
+  std::vector<CellState> cells(grid.size());
+  for (auto& cell : cells) cell.low = true;
+  for (int column = 5; column < 30; ++column) {
+    cells[grid.at(column, 14)].rests = true;
+    for (int row = 15; row < 20; ++row) cells[grid.at(column, row)].moves = true;
+  }
+  for (int row = 14; row < 19; ++row) cells[grid.at(20, row)] = {true, false, true, false};
+  const std::vector<bool> car = car_region(grid, cells);
+  EXPECT_TRUE(car[grid.at(19, 17)]);
+  EXPECT_TRUE(car[grid.at(22, 17)]);
+  EXPECT_FALSE(car[grid.at(10, 17)]);
 }
 
 TEST(KltTrackerCarMask, UsesNoCornersOfTheCarOnceItIsKnown) {

@@ -117,17 +117,31 @@ class Region {
   void fill_run(const std::vector<int>& outline, int first, int last) {
     const std::vector<int> top = smoothed(outline, first, last);
     int passing = 0, telling = 0;
-    Cells below;
+    Cells below, enclosed;
     for (int column = first; column <= last; ++column) {
+      const int lowest = lowest_rest(column);
       for (int row = height(top, column); row < grid_.rows; ++row) {
         const std::size_t cell = grid_.at(column, row);
-        below.push_back(cell);
+        (row <= lowest ? enclosed : below).push_back(cell);
         passing += cells_[cell].moves ? 1 : 0;
         telling += cells_[cell].moves || cells_[cell].rests ? 1 : 0;
       }
     }
+    for (const std::size_t cell : enclosed) car_[cell] = true;
     if (passing > kPassing * telling) return;
     for (const std::size_t cell : below) car_[cell] = true;
+  }
+
+  /// The lowest row where the car rests in this column or next to it, -1 where it does nowhere.
+  /// What moves above it is a reflection in the bonnet.
+  [[nodiscard]] int lowest_rest(int column) const {
+    const int left = std::max(0, column - kGap), right = std::min(grid_.columns - 1, column + kGap);
+    for (int row = grid_.rows - 1; row >= 0; --row) {
+      for (int c = left; c <= right; ++c) {
+        if (car_[grid_.at(c, row)] && cells_[grid_.at(c, row)].rests) return row;
+      }
+    }
+    return -1;
   }
 
   [[nodiscard]] std::vector<bool> widened() const {

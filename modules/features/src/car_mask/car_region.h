@@ -17,8 +17,8 @@ struct CellState {
 /// Which cells belong to the car. Resting cells that hang together are one thing. It is the car's
 /// when it has a low cell and does not reach up to the distant ones, as a vehicle ahead does. The
 /// car ends at its upper outline: where this is long (a bonnet, not a speck), what lies below it
-/// down to the border is car as well, unless most of what can be seen there passes. One cell around
-/// is added.
+/// down to the border is car as well, unless most of what can be seen there passes: then only what
+/// lies between the outline and the lowest rest of its columns is. One cell around is added.
 /// @param cells  row by row, of `grid`
 [[nodiscard]] std::vector<bool> car_region(const CellGrid& grid,
                                            const std::vector<CellState>& cells);
