@@ -19,17 +19,23 @@ std::string whole(double value) {
   return fixed_text(value, 0);
 }
 
+/// A tenth of a pixel, but no row of three hundred digits.
+std::string pixels(double value) {
+  constexpr double kWritable_px = 1e6;
+  return std::abs(value) < kWritable_px ? fixed_text(value, 1) : exact_text(value);
+}
+
 std::optional<std::string> field_fault(const char* name, double focal, double side) {
   const double field = 2.0 * std::atan(0.5 * side / focal);
   if (field >= kNarrowest && field <= kWidest) return std::nullopt;
-  return std::string(name) + " = " + fixed_text(focal, 1) + " px on " + whole(side) +
+  return std::string(name) + " = " + pixels(focal) + " px on " + whole(side) +
          " px of image is a field of view of " + fixed_text(field / kDegree, 1) +
          "°, cameras of vehicles have 10° to 150°";
 }
 
 std::optional<std::string> centre_fault(const char* name, double centre, double side) {
   if (centre >= kMiddleBegins * side && centre <= kMiddleEnds * side) return std::nullopt;
-  return std::string(name) + " = " + fixed_text(centre, 1) + " px lies beyond the middle half of " +
+  return std::string(name) + " = " + pixels(centre) + " px lies beyond the middle half of " +
          whole(side) + " px of image";
 }
 
@@ -37,7 +43,7 @@ std::optional<std::string> aspect_fault(const PinholeCamera& camera) {
   if (std::max(camera.fx, camera.fy) <= kSquarest * std::min(camera.fx, camera.fy)) {
     return std::nullopt;
   }
-  return "fx = " + fixed_text(camera.fx, 1) + " px and fy = " + fixed_text(camera.fy, 1) +
+  return "fx = " + pixels(camera.fx) + " px and fy = " + pixels(camera.fy) +
          " px differ by more than a quarter";
 }
 

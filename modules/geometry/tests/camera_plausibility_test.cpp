@@ -91,5 +91,17 @@ TEST(CameraPlausibility, TheMiddleHalfEndsAtAQuarter) {
   EXPECT_TRUE(has(fault_of(camera), "cx"));
 }
 
+TEST(CameraPlausibility, WritesHugeNumbersShortly) {
+  PinholeCamera camera;
+  camera.width = 800;
+  camera.height = 600;
+  camera.fx = camera.fy = 1e300;
+  camera.cx = 404.0;
+  camera.cy = 309.0;
+  const auto faults = camera_faults(camera);
+  ASSERT_EQ(faults.size(), 1U);
+  EXPECT_LT(faults[0].size(), 150U) << faults[0];
+}
+
 }  // namespace
 }  // namespace oneac
