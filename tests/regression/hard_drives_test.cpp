@@ -114,11 +114,6 @@ const std::vector<std::string> kNotYet = {
     "TruckAheadSwinging",
     "TruckInAQueue",
     "RightCamera",
-    "UpsideDownUntold",
-    "PortraitUntold",
-    "RearUntold",
-    "CalibrationOfFullSize",
-    "FocalLengthOfFivePixels",
     "PrincipalPointSwapped",
     "FocalLengthTenPercentLong",
 };
