@@ -114,7 +114,6 @@ const std::vector<std::string> kNotYet = {
     "TruckAheadSwinging",
     "TruckInAQueue",
     "RightCamera",
-    "PrincipalPointSwapped",
     "FocalLengthTenPercentLong",
 };
 
