@@ -203,6 +203,16 @@ TEST(SetupCheck, FindsTwoCamerasUnderOneLabel) {
   EXPECT_NE(setup.faults()[0].find("two cameras under one label"), std::string::npos);
 }
 
+TEST(SetupCheck, FindsTwoCamerasThoughEverySecondStepIsTakenForBacking) {
+  SetupCheck setup;
+  setup.start(frame_of({}));
+  for (int i = 0; i < kSteps; ++i) {
+    setup.follow(seen_by({}, {i % 2 == 0 ? 0.5 : -0.5, 0.25, 0.0}), levelling({}));
+  }
+  ASSERT_FALSE(setup.faults().empty());
+  EXPECT_NE(setup.faults()[0].find("two cameras under one label"), std::string::npos);
+}
+
 TEST(SetupCheck, SaysNothingAfterAFewSteps) {
   SetupCheck setup;
   setup.start(frame_of({}));

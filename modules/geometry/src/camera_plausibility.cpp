@@ -4,6 +4,7 @@
 #include "oneac/geometry/angles.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <optional>
 
@@ -19,25 +20,44 @@ std::string whole(double value) {
   return fixed_text(value, 0);
 }
 
+/// A tenth of a pixel, but no row of three hundred digits.
+std::string pixels(double value) {
+  constexpr double kWritable_px = 1e6;
+  return std::abs(value) < kWritable_px ? fixed_text(value, 1) : exact_text(value);
+}
+
 std::optional<std::string> field_fault(const char* name, double focal, double side) {
   const double field = 2.0 * std::atan(0.5 * side / focal);
   if (field >= kNarrowest && field <= kWidest) return std::nullopt;
-  return std::string(name) + " = " + fixed_text(focal, 1) + " px on " + whole(side) +
+  return std::string(name) + " = " + pixels(focal) + " px on " + whole(side) +
          " px of image is a field of view of " + fixed_text(field / kDegree, 1) +
          "°, cameras of vehicles have 10° to 150°";
 }
 
 std::optional<std::string> centre_fault(const char* name, double centre, double side) {
   if (centre >= kMiddleBegins * side && centre <= kMiddleEnds * side) return std::nullopt;
-  return std::string(name) + " = " + fixed_text(centre, 1) + " px lies beyond the middle half of " +
+  return std::string(name) + " = " + pixels(centre) + " px lies beyond the middle half of " +
          whole(side) + " px of image";
+}
+
+/// Both lie a tenth of a side off the middle, and at it, to a thirtieth, with their places changed.
+std::optional<std::string> swap_fault(const PinholeCamera& camera) {
+  const auto off = [&](double x, double y) {
+    return std::array<double, 2>{std::abs(x / camera.width - 0.5),
+                                 std::abs(y / camera.height - 0.5)};
+  };
+  const auto [x_off, y_off] = off(camera.cx, camera.cy);
+  const auto [x_swapped, y_swapped] = off(camera.cy, camera.cx);
+  const bool swapped = std::min(x_off, y_off) > 0.1 && std::max(x_swapped, y_swapped) < 1.0 / 30.0;
+  if (!swapped) return std::nullopt;
+  return "cx = " + pixels(camera.cx) + " px and cy = " + pixels(camera.cy) + " px look swapped";
 }
 
 std::optional<std::string> aspect_fault(const PinholeCamera& camera) {
   if (std::max(camera.fx, camera.fy) <= kSquarest * std::min(camera.fx, camera.fy)) {
     return std::nullopt;
   }
-  return "fx = " + fixed_text(camera.fx, 1) + " px and fy = " + fixed_text(camera.fy, 1) +
+  return "fx = " + pixels(camera.fx) + " px and fy = " + pixels(camera.fy) +
          " px differ by more than a quarter";
 }
 
@@ -50,7 +70,7 @@ std::vector<std::string> camera_faults(const PinholeCamera& camera) {
   const bool lies = width >= height;  // a strip cut out of an image is low, and sound
   for (const auto& fault :
        {lies ? field_fault("fx", camera.fx, width) : field_fault("fy", camera.fy, height),
-        aspect_fault(camera), centre_fault("cx", camera.cx, width),
+        aspect_fault(camera), swap_fault(camera), centre_fault("cx", camera.cx, width),
         centre_fault("cy", camera.cy, height)}) {
     if (fault) faults.push_back(*fault);
   }

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <string>
+#include <utility>
 
 namespace oneac {
 namespace {
@@ -89,6 +90,32 @@ TEST(CameraPlausibility, TheMiddleHalfEndsAtAQuarter) {
   EXPECT_TRUE(has(fault_of(camera), "cx"));
   camera.cx = 0.76 * camera.width;
   EXPECT_TRUE(has(fault_of(camera), "cx"));
+}
+
+TEST(CameraPlausibility, WritesHugeNumbersShortly) {
+  PinholeCamera camera;
+  camera.width = 800;
+  camera.height = 600;
+  camera.fx = camera.fy = 1e300;
+  camera.cx = 404.0;
+  camera.cy = 309.0;
+  const auto faults = camera_faults(camera);
+  ASSERT_EQ(faults.size(), 1U);
+  EXPECT_LT(faults[0].size(), 150U) << faults[0];
+}
+
+TEST(CameraPlausibility, NoticesASwappedPrincipalPointWithinTheMiddleHalf) {
+  PinholeCamera camera;
+  camera.width = 640;
+  camera.height = 480;
+  camera.fx = camera.fy = 500.0;
+  camera.cx = 239.5;
+  camera.cy = 319.5;
+  const auto faults = camera_faults(camera);
+  ASSERT_EQ(faults.size(), 1U);
+  EXPECT_NE(faults[0].find("look swapped"), std::string::npos) << faults[0];
+  std::swap(camera.cx, camera.cy);
+  EXPECT_TRUE(camera_faults(camera).empty());
 }
 
 }  // namespace

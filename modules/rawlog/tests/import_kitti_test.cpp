@@ -119,7 +119,7 @@ TEST_F(ImportKitti, TakesKittisHeightForKittisCameraAndSaysSo) {
 
 TEST_F(ImportKitti, RefusesHeightsOfNoVehicle) {
   make_sequence();
-  for (const double height : {165.0, 0.0, -1.65, 0.2, 5.5}) {
+  for (const double height : {165.0, 0.0, -1.65, 0.2, 5.5, 1e17, std::nan(""), 1.0 / 0.0}) {
     options_.camera_height_m = height;
     EXPECT_NE(complaint().find("from 0.3 to 5"), std::string::npos) << height;
   }
@@ -168,6 +168,67 @@ TEST_F(ImportKitti, OrdersImagesByTheirNumbersAndSaysSo) {
                                    std::string::npos;
                           }),
             1);
+}
+
+TEST_F(ImportKitti, RecognisesTheUnitOfTimesAndSaysIt) {
+  struct Case {
+    const char* times;
+    const char* unit;
+    double first_s;
+  };
+  make_sequence();
+  for (const Case& c :
+       {Case{"1317016800000000000\n1317016800100000000\n1317016800200000000\n", "nanoseconds",
+             1317016800.0},
+        Case{"1317016800000000\n1317016800100000\n1317016800200000\n", "microseconds",
+             1317016800.0},
+        Case{"1317016800000\n1317016800100\n1317016800200\n", "milliseconds", 1317016800.0},
+        Case{"0\n100000000\n200000000\n", "nanoseconds", 1317016800.0},
+        Case{"0\n100000\n200000\n", "microseconds", 1317016800.0},
+        Case{"0\n100\n200\n", "milliseconds", 1317016800.0},
+        Case{"1400000000.0\n1400000000.1\n1400000000.2\n", "", 1400000000.0}}) {
+    write_text(options_.source / "times.txt", c.times);
+    const ImportReport report = import_kitti(options_);
+    const auto found = images();
+    ASSERT_EQ(found.size(), 3U);
+    const double first = mrpt::Clock::toDouble(found[0]->timestamp);
+    EXPECT_NEAR(first, c.first_s, 1e-5) << c.times;
+    EXPECT_NEAR(mrpt::Clock::toDouble(found[2]->timestamp) - first, 0.2, 1e-5) << c.times;
+    std::string notes;
+    for (const std::string& note : report.notes) notes += note + '\n';
+    const bool said = notes.find("times.txt is in ") != std::string::npos;
+    EXPECT_EQ(said, c.unit[0] != '\0') << notes;
+    EXPECT_NE(notes.find(c.unit), std::string::npos) << notes;
+  }
+}
+
+TEST_F(ImportKitti, RefusesTimesOfNoUnitByRow) {
+  make_sequence();
+  write_text(options_.source / "times.txt", "0\n1e-5\n2e-5\n");
+  EXPECT_NE(complaint().find("no spacing of images"), std::string::npos) << complaint();
+  for (const char* beyond : {"1e300", "-1e300", "-0.1", "1e10"}) {
+    write_text(options_.source / "times.txt", std::string("0\n0.1\n") + beyond + "\n");
+    const std::string said = complaint();
+    EXPECT_NE(said.find("times.txt"), std::string::npos) << beyond;
+    EXPECT_NE(said.find("10 Hz"), std::string::npos) << said;
+  }
+  write_text(options_.source / "times.txt", "0\n0.1\n0.2\n-1e300\n");
+  EXPECT_NE(complaint().find("row 4"), std::string::npos) << complaint();
+}
+
+TEST_F(ImportKitti, RefusesAPoseThatIsNone) {
+  make_sequence();
+  write_text(options_.source / "poses.txt",
+             "1 0 0 0 0 1 0 0 0 0 1 0\n0 0 0 0 0 0 0 0 0 0 0 0\n1 0 0 0 0 1 0 0 0 0 1 2\n");
+  EXPECT_NE(complaint().find("row 2: is no rotation"), std::string::npos) << complaint();
+}
+
+TEST_F(ImportKitti, RefusesAFirstImageOfOnePixel) {
+  make_sequence();
+  test::write_image(options_.source / "image_0" / "000000.png", 1, 1);
+  const std::string said = complaint();
+  EXPECT_NE(said.find("000000.png"), std::string::npos) << said;
+  EXPECT_NE(said.find("1x1 pixels"), std::string::npos) << said;
 }
 
 TEST_F(ImportKitti, TheColourCameraHasItsOwnCalibration) {

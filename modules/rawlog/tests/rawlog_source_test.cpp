@@ -11,6 +11,8 @@
 #include <opencv2/calib3d.hpp>
 #include <opencv2/imgcodecs.hpp>
 
+#include <algorithm>
+
 namespace oneac {
 namespace {
 
@@ -75,6 +77,36 @@ TEST_F(Source, CountsMissingImagesOnceAndKeepsTheirIndex) {
   EXPECT_EQ(report_.images_in_log, 5U);
   EXPECT_EQ(report_.images_missing, 3U);
   EXPECT_EQ(report_.first_missing, "p0_right.png");
+}
+
+TEST_F(Source, SaysThatNamesDoNotFollowTheTime) {
+  std::vector<std::string> names;
+  for (int i = 1; i <= 25; ++i) names.push_back(std::to_string(i) + ".png");
+  for (const bool sorted_as_text : {false, true}) {
+    if (sorted_as_text) std::sort(names.begin(), names.end());
+    test::Objects objects;
+    for (std::size_t i = 0; i < names.size(); ++i) {
+      save("Images/" + names[i], static_cast<int>(i));
+      objects.push_back(test::external_image("CAM", 0.1 * static_cast<double>(i), names[i]));
+    }
+    test::write_log(options_.log, objects);
+    ASSERT_EQ(all().size(), names.size());
+    const std::string& said = report_.names_out_of_order;
+    EXPECT_EQ(said.empty(), !sorted_as_text) << said;
+    EXPECT_EQ(said.find("nothing is in metres") != std::string::npos, sorted_as_text) << said;
+  }
+}
+
+TEST_F(Source, RefusesTwoCamerasUnderOneLabel) {
+  test::Objects objects;
+  for (int i = 0; i < 6; ++i) {
+    auto image = test::stored_image("CAM", 0.1 * i, ramp(10));
+    image->cameraPose = mrpt::poses::CPose3D(0, i % 2 == 0 ? 0.3 : -0.3, 1.5, 0, 0, 0);
+    objects.push_back(image);
+  }
+  test::write_log(options_.log, objects);
+  const std::string said = test::input_error([&] { (void)all(); });
+  EXPECT_NE(said.find("two cameras have one label"), std::string::npos) << said;
 }
 
 TEST_F(Source, SearchesTheFoldersInOrder) {

@@ -195,7 +195,9 @@ void SetupCheck::remember(const TwoView& seen, const Eigen::Matrix3d& R_level_ca
   const Eigen::Vector3d along = R_level_cam * travel_of(seen.pose);
   const double ahead = along.dot(nose_);
   const Eigen::Vector3d left = Eigen::Vector3d::UnitY().cross(nose_) * -1.0;
-  const double to_the_left = std::atan2(along.dot(left), std::abs(ahead));
+  // Of the line of travel: between two cameras even the sense of a step can be taken wrongly.
+  const double to_the_left =
+      std::atan2(std::copysign(1.0, ahead) * along.dot(left), std::abs(ahead));
   const double before = std::exchange(travels_.last_to_the_left, to_the_left);
   const bool other_side = before * to_the_left < 0.0;
   if (other_side && std::min(std::abs(before), std::abs(to_the_left)) > kSwing) ++travels_.swings;

@@ -48,7 +48,7 @@ class SetupCheck {
   struct Travels {
     std::size_t count = 0, off = 0, swings = 0;
     Eigen::Vector3d sum = Eigen::Vector3d::Zero();  ///< of directions, in the levelled camera
-    double last_to_the_left = 0.0;                  ///< [rad] with its sign, ahead or back
+    double last_to_the_left = 0.0;                  ///< [rad] of its line, with its sign
   };
   /// Looks, and those in which the road lay below, as believed, or a quarter turn or two from it.
   struct Looks {

@@ -15,6 +15,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
+constexpr int kSmallest_px = 32;  // of an image that shows a road
+
 bool is_image(const fs::path& path) {
   std::string extension = path.extension().string();
   std::transform(extension.begin(), extension.end(), extension.begin(),
@@ -87,6 +89,12 @@ void require_mount(const MountAngles& mount) {
 
 std::pair<int, int> image_size(const fs::path& image) {
   const GreyImage pixels = decode_grey_file(image);
+  if (std::min(pixels.width(), pixels.height()) < kSmallest_px) {
+    throw InputError(
+        image.string(),
+        "has " + std::to_string(pixels.width()) + "x" + std::to_string(pixels.height()) + " pixels",
+        "take it away, or get it again: it is no image of a drive");
+  }
   return {pixels.width(), pixels.height()};
 }
 

@@ -13,7 +13,8 @@ namespace oneac {
 /// value: 2 before 10; empty when there is no such folder.
 [[nodiscard]] std::vector<std::filesystem::path> list_images(const std::filesystem::path& folder);
 
-/// Width and height [px]. @throws InputError when the image cannot be decoded
+/// Width and height [px]. @throws InputError when the image cannot be decoded or has less than 32
+/// px
 [[nodiscard]] std::pair<int, int> image_size(const std::filesystem::path& image);
 
 /// @throws InputError when the source of an import is no folder

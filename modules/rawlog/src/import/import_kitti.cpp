@@ -5,10 +5,13 @@
 
 #include "oneac/base/atomic_file.h"
 #include "oneac/base/error.h"
+#include "oneac/base/median.h"
 #include "oneac/base/number_text.h"
 #include "oneac/geometry/camera_height.h"
 #include "oneac/rawlog/calibration.h"
 #include "oneac/rawlog/rawlog_writer.h"
+
+#include <Eigen/Dense>
 
 #include <algorithm>
 #include <array>
@@ -17,6 +20,9 @@
 #include <fstream>
 #include <optional>
 #include <string>
+#include <tuple>
+#include <utility>
+#include <vector>
 
 namespace oneac {
 namespace {
@@ -86,6 +92,53 @@ std::string counts(std::size_t rows, std::size_t images) {
   return std::to_string(rows) + " rows for " + std::to_string(images) + " images";
 }
 
+struct TimeUnit {
+  const char* name;
+  double seconds;
+};
+// Steps of a thousand, and spacings of images that differ by less: one unit fits at most.
+constexpr std::array<TimeUnit, 4> kUnits{
+    {{"seconds", 1.0}, {"milliseconds", 1e-3}, {"microseconds", 1e-6}, {"nanoseconds", 1e-9}}};
+constexpr double kClosest_s = 0.004, kWidest_s = 2.0;  // 250 Hz, an image in two seconds
+constexpr double kLatest_s = 4.1e9;                    // the year 2100
+
+constexpr const char* kTimesCure =
+    "give seconds, or ms, us or ns of a drive with an image every 4 ms to 2 s, or take the file "
+    "away for 10 Hz";
+
+/// The unit that makes the median spacing one of images; seconds for a single row.
+TimeUnit unit_by_spacing(const std::vector<std::vector<double>>& table, const fs::path& file) {
+  std::vector<double> spacings;
+  for (std::size_t i = 1; i < table.size(); ++i) {
+    spacings.push_back(std::abs(table[i][0] - table[i - 1][0]));
+  }
+  if (spacings.empty()) return kUnits[0];
+  const double median = upper_median(std::move(spacings));
+  for (const TimeUnit& unit : kUnits) {
+    const double spacing = unit.seconds * median;
+    if (spacing >= kClosest_s && spacing <= kWidest_s) return unit;
+  }
+  throw InputError(file.string(),
+                   "rows are " + exact_text(median) +
+                       " apart, which is no spacing of images in s, "
+                       "ms, us or ns",
+                   kTimesCure);
+}
+
+/// @throws InputError naming the row of a time that is none since 1970 or the start
+TimeUnit unit_of(const std::vector<std::vector<double>>& table, const fs::path& file) {
+  const TimeUnit unit = unit_by_spacing(table, file);
+  for (std::size_t row = 0; row < table.size(); ++row) {
+    const double time_s = unit.seconds * table[row][0];
+    if (time_s >= 0.0 && time_s <= kLatest_s) continue;
+    throw InputError(
+        file.string() + ": row " + std::to_string(row + 1),
+        exact_text(table[row][0]) + " " + unit.name + " is no time since the start or 1970",
+        kTimesCure);
+  }
+  return unit;
+}
+
 std::vector<double> find_times(const fs::path& source, const Sequence& sequence,
                                ImportReport& report) {
   const fs::path file = source / "times.txt";
@@ -103,9 +156,11 @@ std::vector<double> find_times(const fs::path& source, const Sequence& sequence,
     throw InputError(file.string(), counts(table.size(), sequence.images.size()),
                      "give the times.txt of this sequence, or take it away for 10 Hz");
   }
-  const double epoch = table.front()[0] < kUnixTimes_s ? kEpoch_s : 0.0;
+  const TimeUnit unit = unit_of(table, file);
+  if (unit.seconds != 1.0) report.notes.push_back(std::string("times.txt is in ") + unit.name);
+  const double epoch = unit.seconds * table.front()[0] < kUnixTimes_s ? kEpoch_s : 0.0;
   for (const std::size_t row : rows) {
-    times.push_back(epoch + table[row][0]);
+    times.push_back(epoch + unit.seconds * table[row][0]);
     if (times.size() < 2 || times.back() > times[times.size() - 2]) continue;
     throw InputError(file.string() + ": row " + std::to_string(row + 1), "time does not increase",
                      "give the times.txt of this sequence, or take it away for 10 Hz");
@@ -123,10 +178,23 @@ std::vector<std::string> lines_of(const fs::path& file) {
   return lines;
 }
 
+/// @throws InputError naming the first row that is no pose
+void require_poses(const std::vector<std::vector<double>>& table, const fs::path& file) {
+  constexpr double kOrthonormal = 1e-3;  // as when a reference is read
+  for (std::size_t row = 0; row < table.size(); ++row) {
+    const Eigen::Matrix<double, 3, 4, Eigen::RowMajor> T(table[row].data());
+    const Eigen::Matrix3d R = T.leftCols<3>();
+    const Eigen::Matrix3d off = R * R.transpose() - Eigen::Matrix3d::Identity();
+    if (off.cwiseAbs().maxCoeff() < kOrthonormal && R.determinant() > 0.0) continue;
+    throw InputError(file.string() + ": row " + std::to_string(row + 1), "is no rotation",
+                     "give the poses.txt of this sequence, or take it away");
+  }
+}
+
 void copy_poses(const fs::path& source, const Sequence& sequence, ImportReport& report) {
   const fs::path file = source / "poses.txt";
   if (!fs::exists(file)) return;
-  (void)read_number_table(file, kPoseColumns);  // a damaged reference is found here, not when used
+  require_poses(read_number_table(file, kPoseColumns), file);  // found here, not when used
   const std::vector<std::string> lines = lines_of(file);
   const auto rows = rows_of(sequence.images, lines.size());
   if (rows.empty()) {
