@@ -15,6 +15,7 @@
 #include "oneac/solvers/relpose_1ac_vertical.h"
 #include "oneac/solvers/relpose_1ac_wall.h"
 #include "oneac/solvers/relpose_1pc_ackermann.h"
+#include "oneac/solvers/relpose_2ac.h"
 #include "oneac/solvers/relpose_2pc_ground.h"
 #include "oneac/solvers/relpose_2pc_planar.h"
 #include "oneac/solvers/relpose_3pc_vertical.h"
@@ -133,6 +134,8 @@ constexpr Solver kRows[] = {
     {"relpose_3pc_vertical", "3PC vertical", "3pc_vertical", 3, kPoint, Motion::kPlanar,
      Surface::kWall, "yaw, t, normal", "wall distance", 610,
      functions<&relpose_3pc_vertical, &relpose_3pc_vertical>()},
+    {"relpose_2ac", "2AC essential", "2ac_essential", 2, kAffine, Motion::kAny, Surface::kAny,
+     "R, direction", "1", 9200, functions<&relpose_2ac, &relpose_nac>()},
     {"homography_2ac", "2AC", "2ac", 2, kAffine, Motion::kAny, Surface::kPlane, "H (R, t, normal)",
      "plane distance", 4400, functions<&homography_2ac, &homography_2ac, Gives::kHomographies>()},
     {"homography_4pc", "4PC", "4pc", 4, kPoint, Motion::kAny, Surface::kPlane, "H (R, t, normal)",

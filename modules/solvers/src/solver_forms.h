@@ -48,6 +48,10 @@ std::size_t count(AcSpan acs) {
   return call<kSolve>(acs).size();
 }
 
+inline PlanePose with_plane(const RelativePose& T) {
+  return {T, Eigen::Vector3d::UnitY()};
+}
+
 template <auto kSolve, Gives kGives>
 PoseSet poses(AcSpan acs) {
   PoseSet set;
@@ -73,7 +77,7 @@ EssentialSet essentials(AcSpan acs) {
   EssentialSet set;
   for (const auto& solution : call<kSolve>(acs)) {
     if constexpr (kGives == Gives::kPoses) {
-      add_essential(solution.pose(), set);
+      add_essential(with_plane(solution).motion, set);
     } else if constexpr (kGives == Gives::kHomographies) {
       for (const PlanePose& pose : poses_from_homography(solution, acs)) {
         add_essential(pose.motion, set);

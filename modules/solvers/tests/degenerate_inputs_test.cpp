@@ -130,7 +130,9 @@ const std::vector<Degeneracy>& degeneracies() {
 
 /// What makes the horizon special is a motion along it, or a sample that a line cannot hold.
 bool sees_the_horizon_as_any_line(const Solver& solver) {
-  return solver.motion == SolverMotion::kUpright;
+  const bool two_points = solver.sample == 2 && on_any_surface(solver);
+  return solver.motion == SolverMotion::kUpright ||
+         (solver.motion == SolverMotion::kAny && two_points);
 }
 
 /// "empty" when it never returns anything, "–" when the case is not degenerate for the solver.

@@ -89,9 +89,50 @@ using S = StudySweep;
   };
 }
 
+/// Beyond the paper: solvers of the same year, and what each assumes.
+[[nodiscard]] std::vector<Experiment> experiments_of_siblings() {
+  const StudyMethod vertical = study_method("relpose_1ac_vertical");
+  const StudyMethod planar = study_method("relpose_1ac_planar");
+  const StudyMethod ground = study_method("relpose_1ac_ground");
+  const StudyMethod two = study_method("relpose_2ac");
+  return {
+      {"slope_ground",
+       "Forward motion on a slope, vertical known to 0.1°",
+       M::kForward,
+       P::kGround,
+       S::kSlope,
+       {vertical, planar, ground, two}},
+      {"level_ground",
+       "Forward motion on a slope of 3 %, vertical known to",
+       M::kForward,
+       P::kGround,
+       S::kLevel,
+       {vertical, planar, ground, two}},
+      {"focal_ground",
+       "Turn on the ground, wrong focal length",
+       M::kForward,
+       P::kGround,
+       S::kFocal,
+       {study_method("relpose_1ac_planar_focal"), planar, ground}},
+      {"circles_ground",
+       "Null vector against two circles, forward motion, ground",
+       M::kForward,
+       P::kGround,
+       S::kNoise,
+       {planar, planar_two_circles()}},
+      {"circles_sideways",
+       "Null vector against two circles, sideways motion, ground",
+       M::kSideways,
+       P::kGround,
+       S::kNoise,
+       {planar, planar_two_circles()}},
+  };
+}
+
 [[nodiscard]] std::vector<Experiment> all_experiments() {
   std::vector<Experiment> all = experiments_of_paper();
   for (Experiment& experiment : experiments_of_supplement()) all.push_back(std::move(experiment));
+  for (Experiment& experiment : experiments_of_siblings()) all.push_back(std::move(experiment));
   return all;
 }
 
@@ -131,6 +172,16 @@ const std::vector<Figure>& figures() {
       {"s8", "rapid_ground", translation},
       {"s9", "rapid_front", rotation},
       {"s10", "rapid_front", translation},
+      {"v1", "slope_ground", rotation},
+      {"v2", "slope_ground", translation},
+      {"v3", "level_ground", rotation},
+      {"v4", "level_ground", translation},
+      {"v5", "focal_ground", rotation},
+      {"v6", "focal_ground", translation},
+      {"v7", "circles_ground", rotation},
+      {"v8", "circles_ground", translation},
+      {"v9", "circles_sideways", rotation},
+      {"v10", "circles_sideways", translation},
   };
   return kFigures;
 }
@@ -144,21 +195,30 @@ const Experiment& experiment_named(std::string_view name) {
 
 std::vector<double> sweep_values(StudySweep sweep) {
   if (sweep == S::kWallAngle) return evenly(-80.0, 10.0, 17);
+  if (sweep == S::kSlope) return evenly(0.0, 1.0, 11);
+  if (sweep == S::kFocal) return evenly(-10.0, 2.0, 11);
   return evenly(0.0, 0.1, 11);
 }
 
 std::string_view sweep_column(StudySweep sweep) {
   if (sweep == S::kWallAngle) return "wall_angle_deg";
+  if (sweep == S::kSlope) return "slope_percent";
+  if (sweep == S::kLevel) return "vertical_deg";
+  if (sweep == S::kFocal) return "focal_error_percent";
   return sweep == S::kTilt ? "tilt_deg" : "noise_px";
 }
 
 std::string_view sweep_label(StudySweep sweep) {
   if (sweep == S::kWallAngle) return "angle of the wall about the vertical [°]";
   if (sweep == S::kTilt) return "tilt of the second camera about its X axis [°]";
+  if (sweep == S::kSlope) return "slope of the road [%]";
+  if (sweep == S::kLevel) return "1σ of the known vertical, pitch and roll of each view [°]";
+  if (sweep == S::kFocal) return "error of the assumed focal length [%]";
   return "point noise [px], with affine noise of 5° and 5 % per px";
 }
 
 std::string_view sweep_unit(StudySweep sweep) {
+  if (sweep == S::kSlope || sweep == S::kFocal) return "%";
   return sweep == S::kNoise ? "px" : "°";
 }
 

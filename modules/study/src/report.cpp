@@ -20,9 +20,10 @@ constexpr int kDigits = 8;         // in the CSV: enough to draw and compare, sh
 }
 
 [[nodiscard]] std::string subtitle_of(StudySweep sweep, DataUse data_use) {
-  const std::string noise = sweep == StudySweep::kNoise  ? ""
-                            : sweep == StudySweep::kTilt ? "; noise 1 px, 1°, 1 %"
-                                                         : "; noise 1 px, 5°, 5 %";
+  const std::string noise = sweep == StudySweep::kNoise       ? ""
+                            : sweep == StudySweep::kSlope     ? "; noise 0.2 px, 0.2°, 0.2 %"
+                            : sweep == StudySweep::kWallAngle ? "; noise 1 px, 5°, 5 %"
+                                                              : "; noise 1 px, 1°, 1 %";
   return (data_use == DataUse::kAll ? "every method uses the same four correspondences"
                                     : "1AC uses one correspondence, 2AC two, 4PC four") +
          noise;

@@ -133,10 +133,12 @@ PointResult run_point(const Experiment& experiment, std::size_t point,
   std::vector<ErrorLists> lists(experiment.methods.size());
   for (std::size_t trial = 0; trial < options.trials; ++trial) {
     TrialRandom random(trial_seed(options.seed, experiment.name, point, trial));
-    const auto acs = draw_correspondences(scene, options.noise_shape, random);
+    auto acs = draw_correspondences(scene, options.noise_shape, random);
+    StudyScene seen = scene;
+    measure(seen, acs, random);
     for (std::size_t m = 0; m < lists.size(); ++m) {
       const auto errors =
-          errors_of(experiment.methods[m], options.data_use, AcSpan(acs.data(), acs.size()), scene);
+          errors_of(experiment.methods[m], options.data_use, AcSpan(acs.data(), acs.size()), seen);
       if (!errors) continue;
       for (std::size_t i = 0; i < kMetrics.size(); ++i) {
         lists[m].deg[i].push_back(errors->of(kMetrics[i]) / kDegree);

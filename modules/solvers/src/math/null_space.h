@@ -9,8 +9,9 @@ namespace oneac::internal {
 
 /// Orthonormal basis of the null space of an R×C matrix of full rank R, by elimination with
 /// complete pivoting; false when the rank is lower (a pivot below `singular` times the first).
-template <int R, int C>
-[[nodiscard]] bool null_space(Eigen::Matrix<double, R, C> m, double singular,
+/// Of more rows than R the R that say most are used: those of the largest pivots.
+template <int R, int C, int Rows = R>
+[[nodiscard]] bool null_space(Eigen::Matrix<double, Rows, C> m, double singular,
                               Eigen::Matrix<double, C, C - R>& basis) {
   int column[C];
   for (int i = 0; i < C; ++i) column[i] = i;
@@ -19,7 +20,7 @@ template <int R, int C>
     int row = k, col = k;
     double largest = -1.0;
     for (int j = k; j < C; ++j) {
-      for (int i = k; i < R; ++i) {
+      for (int i = k; i < Rows; ++i) {
         if (std::abs(m(i, j)) > largest) largest = std::abs(m(i, j)), row = i, col = j;
       }
     }
@@ -31,7 +32,7 @@ template <int R, int C>
       std::swap(column[col], column[k]);
     }
     const double inverse = 1.0 / m(k, k);
-    for (int i = k + 1; i < R; ++i) {
+    for (int i = k + 1; i < Rows; ++i) {
       const double factor = m(i, k) * inverse;
       for (int j = k + 1; j < C; ++j) m(i, j) -= factor * m(k, j);
     }

@@ -10,7 +10,17 @@ namespace oneac {
 
 enum class StudyMotion { kForward, kSideways };                        ///< along Z, along X
 enum class StudySurface { kGround, kFrontWall, kSideWall, kAnyWall };  ///< all at distance 1
-enum class StudySweep { kNoise, kWallAngle, kTilt };
+enum class StudySweep {
+  kNoise,
+  kWallAngle,
+  kTilt,   ///< of the second camera, which nobody knows
+  kSlope,  ///< of the road, the vertical known to kKnownVerticalDeg
+  kLevel,  ///< how well the vertical is known, on a road of kLevelSlope
+  kFocal,  ///< error of the assumed focal length, in a turn
+};
+
+constexpr double kKnownVerticalDeg = 0.1;  ///< 1σ of pitch and roll, the same in both views [deg]
+constexpr double kLevelSlope = 3.0;        ///< [%]; there each view has an error of its own
 enum class StudyMetric { kRotation, kTranslation, kNormal };  ///< ξ_R, ξ_t, ξ_n of the paper
 
 /// One series of measurements: a scene, a quantity that is varied, and who takes part.
@@ -39,7 +49,7 @@ struct Figure {
 /// @throws std::invalid_argument for a name that no experiment has
 [[nodiscard]] const Experiment& experiment_named(std::string_view name);
 
-/// The values that the quantity takes: noise level [px], wall angle [deg] or tilt [deg].
+/// The values that the quantity takes, in its unit: px, ° or %.
 [[nodiscard]] std::vector<double> sweep_values(StudySweep sweep);
 /// What a sweep is called: column of the CSV, and label of the axis.
 [[nodiscard]] std::string_view sweep_column(StudySweep sweep);

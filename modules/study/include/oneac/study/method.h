@@ -13,6 +13,11 @@ using StudyMethod = const Solver*;
 /// @throws std::invalid_argument for a name that no such solver has
 [[nodiscard]] StudyMethod study_method(std::string_view name);
 
+/// The planar solver as Hajder and Barath and Guan et al. pose it: the two angles for unknowns,
+/// both unit circles as constraints, the three equations of each correspondence in least squares.
+/// Written anew, the minimum found on a grid; a rival of the study, no row of the list.
+[[nodiscard]] StudyMethod planar_two_circles();
+
 /// How many of a trial's four correspondences a method sees.
 enum class DataUse {
   kMinimal,  ///< as many as it needs, from the first on: 1AC one, 2AC two, 4PC four

@@ -16,6 +16,9 @@ struct StudyScene {
   RelativePose T_2_1;  ///< |t| = kStudyBaseline
   Plane plane;         ///< at distance 1 from the first camera
   NoiseLevel noise;
+  double vertical_deg = 0.0;  ///< 1σ of the levelling, pitch and roll [deg]
+  bool same_level = false;    ///< both views are levelled with the same error, a mount's
+  double focal_ratio = 1.0;   ///< assumed over true focal length
 };
 
 constexpr double kStudyBaseline = 0.1;   ///< [distances to the plane]
@@ -30,6 +33,11 @@ constexpr std::size_t kStudyPoints = 4;  ///< plane points per trial
 /// (1000×1000 px), as far as both cameras see them and they are not deeper than kStudyMaxDepth.
 [[nodiscard]] std::array<AffineCorrespondence, kStudyPoints> draw_correspondences(
     const StudyScene& scene, NoiseShape shape, TrialRandom& random);
+
+/// What is measured of the correspondences: levelled with a vertical that is a little wrong, over a
+/// focal length that is. `scene` becomes the truth of the levelled views.
+void measure(StudyScene& scene, std::array<AffineCorrespondence, kStudyPoints>& acs,
+             TrialRandom& random);
 
 /// Errors against the truth [rad].
 struct TrialErrors {
