@@ -50,7 +50,10 @@ TEST(MakeInitialiser, EveryMethodIsReachableThroughMrptsOwnFactory) {
                                           {"5pc", "5pc"},
                                           {"8pc", "8pc"},
                                           {"4pc", "4pc"},
-                                          {"2ac", "2ac"}}) {
+                                          {"2ac", "2ac"},
+                                          {"1acVertical", "1ac_vertical"},
+                                          {"1acPlanarFocal", "1ac_planar_focal"},
+                                          {"2acEssential", "2ac_essential"}}) {
     const auto object = std::dynamic_pointer_cast<RelativePoseInitialiser>(
         mrpt::rtti::classFactory("oneac::Initialiser" + class_name));
     ASSERT_NE(object, nullptr) << class_name;
@@ -83,8 +86,11 @@ TEST(MakeInitialiser, ListsTheNamesWhenOneIsUnknown) {
 }
 
 const std::vector<std::string> kMethods = {
-    "1ac_ground", "1ac_side",     "1ac_front", "1ac_wall", "1ac_planar", "1ac_pooled", "2pc_ground",
-    "2pc_planar", "3pc_vertical", "1pc",       "5pc",      "8pc",        "4pc",        "2ac"};
+    "1ac_ground",   "1ac_side",   "1ac_front",    "1ac_wall",
+    "1ac_planar",   "1ac_pooled", "2pc_ground",   "2pc_planar",
+    "3pc_vertical", "1pc",        "5pc",          "8pc",
+    "4pc",          "2ac",        "1ac_vertical", "1ac_planar_focal",
+    "2ac_essential"};
 
 TEST(MakeInitialiser, KnowsEveryMethodOfThePapersTableAndItsRivals) {
   const std::vector<std::string> names = initialiser_names();

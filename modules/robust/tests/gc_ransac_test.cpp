@@ -82,6 +82,14 @@ bool same_bits(const RobustResult& a, const RobustResult& b) {
          a.statistics.graph_cuts == b.statistics.graph_cuts;
 }
 
+/// Two affinities give any motion few digits: of fifty hypotheses the best may lead to a wrong
+/// optimum, of some hundred it does not.
+GcRansacOptions options_for(const Solver& solver) {
+  GcRansacOptions options;
+  if (solver.name == "relpose_2ac") options.min_iterations = 300;
+  return options;
+}
+
 class GcRansacMethod : public testing::TestWithParam<Solver> {};
 
 TEST_P(GcRansacMethod, FindsTheMotionAmongFortyPercentOutliers) {
@@ -90,7 +98,8 @@ TEST_P(GcRansacMethod, FindsTheMotionAmongFortyPercentOutliers) {
     SCOPED_TRACE(trial);
     const RelativePose T = motion_for(GetParam(), scene);
     const auto acs = scene_for(GetParam(), scene, T, 40);
-    const RobustResult result = gc_ransac(acs, kLevel, kFocal, GetParam(), 7, {});
+    const RobustResult result =
+        gc_ransac(acs, kLevel, kFocal, GetParam(), 7, options_for(GetParam()));
     expect_close(result, T);
     EXPECT_GT(result.inlier_count, 150U);
     EXPECT_LT(result.inlier_count, 210U);

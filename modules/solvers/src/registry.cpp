@@ -135,7 +135,7 @@ constexpr Solver kRows[] = {
      Surface::kWall, "yaw, t, normal", "wall distance", 610,
      functions<&relpose_3pc_vertical, &relpose_3pc_vertical>()},
     {"relpose_2ac", "2AC essential", "2ac_essential", 2, kAffine, Motion::kAny, Surface::kAny,
-     "R, direction", "1", 9200, functions<&relpose_2ac, &relpose_nac>()},
+     "R, direction", "1", 8100, functions<&relpose_2ac, &relpose_nac>()},
     {"homography_2ac", "2AC", "2ac", 2, kAffine, Motion::kAny, Surface::kPlane, "H (R, t, normal)",
      "plane distance", 4400, functions<&homography_2ac, &homography_2ac, Gives::kHomographies>()},
     {"homography_4pc", "4PC", "4pc", 4, kPoint, Motion::kAny, Surface::kPlane, "H (R, t, normal)",
