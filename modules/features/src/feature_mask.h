@@ -31,4 +31,7 @@ class FeatureMask {
   GreyImage picture_;
 };
 
+/// Dark where either is; an empty picture is dark nowhere. @pre the same size
+[[nodiscard]] GreyImage darker(GreyImage a, const GreyImage& b);
+
 }  // namespace oneac::internal

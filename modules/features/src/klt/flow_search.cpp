@@ -1,5 +1,7 @@
 #include "flow_search.h"
 
+#include "oneac/base/median.h"
+
 #include <array>
 #include <limits>
 #include <utility>
@@ -130,6 +132,15 @@ void search_lost_tracks(const std::vector<KltTrack>& tracks, const ImagePyramid&
                         const KltOptions& options,
                         std::vector<std::optional<PatchMatch>>& matches) {
   matches = TrackSearch(tracks, first, second, motion, options).again(std::move(matches));
+}
+
+double median_flow(const std::vector<KltTrack>& tracks,
+                   const std::vector<std::optional<PatchMatch>>& matches) {
+  std::vector<double> flows;
+  for (std::size_t i = 0; i < tracks.size(); ++i)
+    if (matches[i]) flows.push_back((matches[i]->warp.centre - tracks[i].u).norm());
+  if (flows.empty()) return 0.0;
+  return upper_median(std::move(flows));
 }
 
 }  // namespace oneac::internal

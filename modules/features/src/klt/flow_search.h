@@ -20,4 +20,8 @@ void search_lost_tracks(const std::vector<KltTrack>& tracks, const ImagePyramid&
                         const ImagePyramid& second, const MotionPrediction& motion,
                         const KltOptions& options, std::vector<std::optional<PatchMatch>>& matches);
 
+/// Median way of the tracks that were found [px]; 0 where none was.
+[[nodiscard]] double median_flow(const std::vector<KltTrack>& tracks,
+                                 const std::vector<std::optional<PatchMatch>>& matches);
+
 }  // namespace oneac::internal

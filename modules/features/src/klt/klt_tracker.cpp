@@ -5,8 +5,6 @@
 #include "standing.h"
 #include "with_quality.h"
 
-#include "oneac/base/median.h"
-
 #include <Eigen/LU>
 
 #include <algorithm>
@@ -25,26 +23,6 @@ constexpr int kRounds = 4;      // corners per cell before the search for corner
 constexpr double kMerge = 0.5;  // tracks nearer than half the corners' distance are one
 // An image with fewer corners (dark, blank) has nothing that other features would find.
 constexpr std::size_t kLeastCorners = 50;
-
-double median_flow(const std::vector<KltTrack>& tracks,
-                   const std::vector<std::optional<PatchMatch>>& matches) {
-  std::vector<double> flows;
-  for (std::size_t i = 0; i < tracks.size(); ++i)
-    if (matches[i]) flows.push_back((matches[i]->warp.centre - tracks[i].u).norm());
-  if (flows.empty()) return 0.0;
-  return upper_median(std::move(flows));
-}
-
-/// Dark where either is; an empty picture is dark nowhere.
-GreyImage darker(GreyImage a, GreyImage b) {
-  if (a.empty()) return b;
-  if (b.empty()) return a;
-  for (int v = 0; v < a.height(); ++v) {
-    std::transform(a.row(v), a.row(v) + a.width(), b.row(v), a.row(v),
-                   [](std::uint8_t x, std::uint8_t y) { return std::min(x, y); });
-  }
-  return a;
-}
 
 Correspondence correspondence_of(const KltTrack& track, const PatchMatch& match) {
   return with_quality({track.u, match.warp.centre, match.warp.M}, track.id, match.quality);
