@@ -46,8 +46,7 @@ void write_all(const DriveRecord& record, RunOptions& options, double wall_secon
       << ": trajectory_camera.kitti, trajectory_camera.tum, trajectory_vehicle.tum, "
          "relative_poses.csv, covariance.csv, tilt.csv, timings.csv, summary.json, report.html, "
          "params.yaml"
-      << (record.keyframes.empty() ? ""
-                                   : ", keyframes.tum, graph.g2o, map.simplemap, points.ply")
+      << (record.keyframes.empty() ? "" : ", keyframes.tum, graph.g2o, map.simplemap, points.ply")
       << (record.car_mask.empty() ? "\n" : ", mask.png\n");
 }
 

@@ -52,9 +52,9 @@ TEST_F(OutputFaults, AFullDiskWhileALogIsWrittenLeavesNoLog) {
   fs::create_directories(sequence / "images");
   for (int i = 0; i < 80; ++i) {
     const std::string name = std::to_string(i * 7919) + ".png";
-    cv::imwrite((sequence / "images" / name).string(), cv::Mat(2, 2, CV_8U, cv::Scalar(9)));
+    cv::imwrite((sequence / "images" / name).string(), cv::Mat(48, 64, CV_8U, cv::Scalar(9)));
   }
-  test::write_bytes(sequence / "calib.txt", "P0: 50 0 1 0 0 50 1 0 0 0 1 0\n");
+  test::write_bytes(sequence / "calib.txt", "P0: 50 0 32 0 0 50 24 0 0 0 1 0\n");
   const std::vector<std::string> command{ONEAC_PROGRAM,     "import", "kitti",
                                          sequence.string(), "-o",     log().string()};
   ASSERT_EQ(run_program(command).exit_code, 0);

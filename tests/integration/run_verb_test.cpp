@@ -86,7 +86,7 @@ TEST_F(RunVerb, IsNotMetricWithoutACameraHeight) {
   const ProgramResult result =
       oneac_program({"run", (drive_2 / "simulated.rawlog").string(), "-o", out.string()});
   EXPECT_EQ(result.exit_code, 0);
-  EXPECT_NE(result.err.find("camera_height"), std::string::npos) << result.err;
+  EXPECT_NE(result.err.find("--camera-height"), std::string::npos) << result.err;
   for (const auto& row : read_relative_poses(out / "relative_poses.csv")) {
     if (row.status != "ok") continue;
     EXPECT_FALSE(row.metric);

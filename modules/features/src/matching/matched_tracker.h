@@ -29,7 +29,7 @@ class MatchedTracker : public AcTracker {
  private:
   struct Frame : FrameFeatures {
     std::shared_ptr<const FrameFeatures> features;
-    ImagePyramid pyramid;  ///< when aligned
+    ImagePyramid pyramid;       ///< when aligned
     int width = 0, height = 0;  ///< [px]
   };
   using Place = std::pair<double, double>;  ///< a feature's centre: the same bytes in both pairs
