@@ -198,6 +198,41 @@ TEST(RoadAlignment, IsNotPulledByACarOnPartOfTheRoad) {
   expect_true(result, drive.length);
 }
 
+/// What drives ahead at constant gap and covers the road of our lane down to the nearest blocks:
+/// the same place in both images.
+RoadAlignment behind_a_truck(const Drive& drive, RoadStep step) {
+  GreyImage first = drive.view(false), second = drive.view(true);
+  const Texture truck(78);
+  for (int v = 100; v < 345; ++v) {
+    for (int u = 140; u < 500; ++u) {
+      const auto grey = static_cast<std::uint8_t>(std::clamp(truck(2.0 * u, 2.0 * v), 0.0, 255.0));
+      first.row(v)[u] = grey;
+      second.row(v)[u] = grey;
+    }
+  }
+  step.T_2_1 = {Eigen::Matrix3d::Identity(), {0.0, 0.0, -1.0}};
+  return align_road(RoadImage(first.view()), RoadImage(second.view()), camera_of_road(), step);
+}
+
+TEST(RoadAlignment, DoesNotTakeATruckAtConstantGapForARoadThatRests) {
+  for (const double contrast : {0.0, 0.1, 1.0}) {  // of the road beside it
+    Drive drive{[=, asphalt = asphalt(10)](double x, double z) {
+      return 90.0 + contrast * (asphalt(x, z) - 90.0);
+    }};
+    const RoadAlignment result = behind_a_truck(drive, drive.step());
+    EXPECT_FALSE(result.status == RoadStatus::kMeasured && result.length < 0.3)
+        << contrast << ": " << result.length << " +- " << result.sigma;
+  }
+}
+
+TEST(RoadAlignment, SeesARestBesideATruckThatStandsToo) {
+  Drive drive{asphalt(10)};
+  drive.length = drive.yaw = drive.pitch = 0.0;
+  const RoadAlignment result = behind_a_truck(drive, drive.step());
+  EXPECT_EQ(result.status, RoadStatus::kMeasured) << to_string(result.status);
+  EXPECT_NEAR(result.length, 0.0, 0.01);
+}
+
 TEST(RoadAlignment, LeavesOutWhatIsMasked) {
   const Drive drive{asphalt(10)};
   GreyImage first = drive.view(false), second = drive.view(true), mask(640, 360, 255);

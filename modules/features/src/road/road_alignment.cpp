@@ -30,7 +30,8 @@ constexpr int kLeastTextured = 3;      // blocks
 constexpr int kScoreStride = 2;        // lines along the road that judge rivals
 constexpr double kSamePlace = 1.5;     // [search steps] nearer peaks are one
 // [heights] Shorter steps are those of a road that rests, and of a vehicle ahead that goes as we do
-// or nearly so; only what lies before its wheels tells them apart: nearest blocks, and so many.
+// or nearly so; what lies before its wheels and beside them tells them apart: so many of the
+// nearest blocks, an outermost one among them, which no vehicle in our lane covers.
 constexpr double kVehicleAhead = 0.3;
 constexpr int kLeastNearest = 2;
 constexpr double kClearly = 0.5;  // [-] weight of a block that agrees
@@ -117,12 +118,12 @@ void describe_fit(const RoadFit& fit, RoadAlignment& result) {
 }
 
 bool is_seen_near(const RoadFit& fit, const RoadAlignmentOptions& options) {
+  const auto agrees = [&](std::size_t lane) {
+    return fit.equations[lane].rho >= options.min_correlation && fit.weight[lane] > kClearly;
+  };
   int agreeing = 0;
-  for (std::size_t lane = 0; lane < kLanes; ++lane) {
-    const bool like = fit.equations[lane].rho >= options.min_correlation;
-    agreeing += like && fit.weight[lane] > kClearly ? 1 : 0;
-  }
-  return agreeing >= kLeastNearest;
+  for (std::size_t lane = 0; lane < kLanes; ++lane) agreeing += agrees(lane) ? 1 : 0;
+  return agreeing >= kLeastNearest && (agrees(0) || agrees(kLanes - 1));
 }
 
 RoadStatus judge(const std::vector<Candidate>& candidates, const LengthRange& range,
