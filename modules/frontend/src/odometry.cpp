@@ -1,5 +1,6 @@
 #include "odometry.h"
 
+#include "map/chained_pose.h"
 #include "uncertainty/step_covariance.h"
 
 #include "oneac/base/thread_clock.h"
@@ -92,13 +93,6 @@ TwoView as_it_moved(TwoView seen, const StepLength& length, const Eigen::Vector3
   return seen;
 }
 
-Eigen::Isometry3d as_isometry(const RelativePose& pose) {
-  Eigen::Isometry3d T = Eigen::Isometry3d::Identity();
-  T.linear() = Eigen::Quaterniond(pose.R).normalized().toRotationMatrix();
-  T.translation() = pose.t;
-  return T;
-}
-
 /// The motion with its length as used, whether metres or not.
 RelativePose motion_of(const StepResult& step) {
   RelativePose motion = step.pose;
@@ -165,14 +159,17 @@ FrameResult Odometry::integrate(const FrameStamp& now, TwoView seen, const RoadP
     seen = refused(std::move(seen), last_motion_);
   }
   StepInTime in_time = step_in_time(before, now, seen, last_motion_);
-  if (scale_.road_rests(road, seen, attitude_.now(), heading(), in_time)) {
+  const auto rest = scale_.rest_by_road(road, seen, attitude_.now(), heading(), in_time);
+  if (rest) {
     seen = resting(std::move(seen));
     in_time.status = seen.status;
   }
   const MapLink link = map_.link(seen);
   if (link.began_anew) scale_.restart(before.time_s);
   in_time.direct =
-      scale_.measure_directly(road, seen, link.carried, attitude_.now(), heading(), in_time);
+      rest && rest->in_metres
+          ? rest
+          : scale_.measure_directly(road, seen, link.carried, attitude_.now(), heading(), in_time);
   const auto told = scale_.measure(seen, link.carried, attitude_.now());
   setup_.follow(seen, attitude_.now().R_level_cam);
   const StepLength length = setup_.checked(scale_.length_of(in_time, told));
@@ -186,9 +183,9 @@ FrameResult Odometry::integrate(const FrameStamp& now, TwoView seen, const RoadP
                                  scale_.lengths_hold());
   const auto correction = scale_correction(lengths, seen.focal_px);
   last_motion_ = {motion.R, motion.t * (correction ? correction->factor : 1.0)};
-  T_odom_cam_ = T_odom_cam_ * as_isometry(motion.inverse());
+  T_cam_odom_ = orthonormalised(motion * T_cam_odom_);
   FrameResult result = frame_result(now, map_.settle(correction), attitude_);
-  result.T_odom_cam = T_odom_cam_;
+  result.T_odom_cam = camera_in_frame(T_cam_odom_);
   return with_step(std::move(result), step, correction);
 }
 

@@ -56,8 +56,8 @@ class Odometry {
   Scale scale_;
   SetupCheck setup_;
   KeyframeMap map_;
-  FrameStamp newest_;  ///< frame
-  Eigen::Isometry3d T_odom_cam_ = Eigen::Isometry3d::Identity();
+  FrameStamp newest_;                                  ///< frame
+  RelativePose T_cam_odom_;                            ///< by the steps alone
   RelativePose last_motion_;                           ///< T_2_1 of the last step, length as used
   Eigen::Vector3d heading_ = Eigen::Vector3d::Zero();  ///< t̂ of the last step that had one
 };

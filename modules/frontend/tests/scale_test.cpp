@@ -149,6 +149,18 @@ TEST(Scale, ARestThatNobodySawOnTheRoadIsNotMetric) {
   EXPECT_FALSE(scale.length_of(rest({}), {}).metric);
 }
 
+TEST(Scale, ARestThatNobodySawDoesNotConfirmItself) {
+  Scale scale = started(by("height"));
+  static_cast<void>(
+      scale.length_of(step(StepStatus::kOk, 10.0, 0.03), {{0.03, 0.01, LengthSource::kRoad, 50}}));
+  int metric = 0;
+  for (int i = 1; i <= 30; ++i) {  // a truck fills the view and rolls on with us
+    const StepInTime unseen = step(StepStatus::kNoMotion, 10.0 + 0.1 * i, 0.0);
+    metric += scale.length_of(unseen, {}).metric ? 1 : 0;
+  }
+  EXPECT_LE(metric, 2) << "an instant, while braking could have ended in a rest";
+}
+
 TEST(Scale, ARestWhoseRoadMovesIsNone) {
   Scale scale = driving();
   const StepLength length =

@@ -1,15 +1,10 @@
 #include "keyframe_map.h"
 
+#include "chained_pose.h"
+
 #include <utility>
 
 namespace oneac {
-namespace {
-
-RelativePose orthonormalised(const RelativePose& T) {
-  return {Eigen::Quaterniond(T.R).normalized().toRotationMatrix(), T.t};
-}
-
-}  // namespace
 
 KeyframeMap::KeyframeMap(const WindowOptions& options) : options_(options) {}
 
@@ -103,10 +98,7 @@ FrameInMap KeyframeMap::settle(const std::optional<ScaleCorrection>& correction)
 }
 
 Eigen::Isometry3d KeyframeMap::T_first_cam() const {
-  const RelativePose inverse = T_cam_map_.inverse();
-  Eigen::Isometry3d T = Eigen::Isometry3d::Identity();
-  T.linear() = inverse.R;
-  T.translation() = inverse.t;
+  Eigen::Isometry3d T = camera_in_frame(T_cam_map_);
   T.translation() += settling_.offset();
   return T;
 }

@@ -1,5 +1,7 @@
 #include "settling.h"
 
+#include "chained_pose.h"
+
 #include <Eigen/Cholesky>
 #include <Eigen/Geometry>
 
@@ -14,13 +16,6 @@ constexpr double kUnknownTurn = 0.2;
 constexpr double kUnknownPosition = 1.0;
 
 using Matrix6 = Eigen::Matrix<double, 6, 6>;
-
-Eigen::Isometry3d in_first_camera(const RelativePose& T_cam_map) {
-  Eigen::Isometry3d T = Eigen::Isometry3d::Identity();
-  T.linear() = T_cam_map.R.transpose();
-  T.translation() = -(T.linear() * T_cam_map.t);
-  return T;
-}
 
 /// From (w, v) of T_2_1, R ← exp([w]×) R, t ← t + v, to g2o's (translation, quaternion's vector
 /// part) of T_1_2, with the uncertainty of the scale.
@@ -97,7 +92,7 @@ void Settling::settle_oldest(LocalMap& map, Settled& settled) {
     const double sigma = note.metric ? note.scale_sigma : 0.0;
     keyframe.information = as_g2o(constraint_, T, sigma);
   }
-  keyframe.T_first_cam = in_first_camera(oldest.T_cam_map);
+  keyframe.T_first_cam = camera_in_frame(oldest.T_cam_map);
   keyframe.T_first_cam.translation() += offset_;
   constraint_ = map.oldest_constraint();
   T_last_map_ = oldest.T_cam_map;
@@ -141,7 +136,7 @@ void Settling::settle_frames(const WindowKeyframe& keyframe, const LocalMap& map
   const Bend bend = bend_after(keyframe, map);
   while (!frames_.empty() && frames_.front().keyframe <= keyframe.id) {
     Eigen::Isometry3d T =
-        in_first_camera(bend.of(frames_.front().T_cam_keyframe) * keyframe.T_cam_map);
+        camera_in_frame(bend.of(frames_.front().T_cam_keyframe) * keyframe.T_cam_map);
     T.translation() += offset_;
     settled.frames.push_back({frames_.front().frame, T});
     frames_.pop_front();

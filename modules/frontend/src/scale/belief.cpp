@@ -33,19 +33,27 @@ StepLength mean_of(const StepLength& a, const StepLength& b) {
   return result;
 }
 
+/// Whether a car of which this is expected may have come to rest.
+bool could_stand(const std::optional<ExpectedLength>& expected) {
+  return expected && expected->length <= kMoves * expected->sigma + kStillness;
+}
+
 }  // namespace
 
-bool Scale::road_rests(const RoadPair& road, const TwoView& seen, const Levelling& first,
-                       const Eigen::Vector3d& heading, const StepInTime& step) const {
+std::optional<MeasuredTravel> Scale::rest_by_road(const RoadPair& road, const TwoView& seen,
+                                                  const Levelling& first,
+                                                  const Eigen::Vector3d& heading,
+                                                  const StepInTime& step) {
   const auto expected = inertia_.expect(step.begin_s, step.end_s);
-  if (seen.status != StepStatus::kOk || !expected) return false;
-  if (expected->length > kMoves * expected->sigma + kStillness) return false;
+  if (seen.status != StepStatus::kOk || !could_stand(expected)) return std::nullopt;
   TwoView rest;
   rest.status = StepStatus::kNoMotion;
   rest.focal_px = seen.focal_px;
   const auto told =
       road_travel(road, rest, {first, heading, expected, step.seconds(), camera_height()});
-  return told && told->length <= kMoves * told->sigma;
+  if (!told || told->length > kMoves * told->sigma) return std::nullopt;
+  unchecked_ = 0;
+  return told;
 }
 
 StepLength Scale::by_itself(const StepInTime& step) const {
@@ -181,10 +189,11 @@ StepLength Scale::at_rest(const StepInTime& step) const {
     return result;
   }
   if (expected && expected->least > kStillness) return held(step);
-  // Nobody saw the road: zero is believed of a car that was nearly there.
-  const bool could_stand = expected && expected->length <= kMoves * expected->sigma + kStillness;
-  // Without a speed even identical images are no rest: a truck that fills them goes as we do.
-  result.metric = could_stand;
+  // Nobody saw the road: zero is believed of a car that was nearly there, for a moment. Without a
+  // speed even identical images are no rest: a truck that fills them goes as we do. Nor does the
+  // speed learn from it: it would confirm itself for as long as the truck is there.
+  result.source = LengthSource::kHeld;
+  result.metric = could_stand(expected) && expected->sigma <= kSureRest;
   if (result.metric) result.sigma_m = expected->sigma;
   return result;
 }

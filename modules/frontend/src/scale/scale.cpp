@@ -74,8 +74,8 @@ std::optional<MeasuredTravel> Scale::measure_directly(
   if (metres_ == LengthSource::kStereo) return stereo_travel(seen, heading, least_depths_);
   const bool resting = seen.status == StepStatus::kNoMotion;
   const bool in_use = metres_ == LengthSource::kRoad && camera_height() > 0.0;
-  const bool unsure = !carried || !filter_.is_metric() ||
-                      stated(*carried).sigma > kSure * allowed_sigma(stated(*carried).length);
+  const StepLength by_map = carried ? stated(*carried) : StepLength{};
+  const bool unsure = !by_map.metric || by_map.sigma > kSure * allowed_sigma(by_map.length);
   const bool needed = unsure || needs_road_image_ || conflicts_ > 0;
   const bool due = ++unchecked_ >= kCheckEvery;
   if (!resting && !(in_use && (needed || due))) return std::nullopt;

@@ -58,8 +58,12 @@ class Scale {
       const RoadPair& road, const TwoView& seen, const std::optional<LengthMeasurement>& carried,
       const Levelling& first, const Eigen::Vector3d& heading, const StepInTime& step);
   /// The images show a motion, but the car may stand, and the road rests: it is traffic that moves.
-  [[nodiscard]] bool road_rests(const RoadPair& road, const TwoView& seen, const Levelling& first,
-                                const Eigen::Vector3d& heading, const StepInTime& step) const;
+  /// @return what the road says of the rest; empty when it is none
+  [[nodiscard]] std::optional<MeasuredTravel> rest_by_road(const RoadPair& road,
+                                                           const TwoView& seen,
+                                                           const Levelling& first,
+                                                           const Eigen::Vector3d& heading,
+                                                           const StepInTime& step);
   /// What inertia lets expect; empty while no speed is known.
   [[nodiscard]] std::optional<ExpectedLength> expected(double begin_s, double end_s) const {
     return inertia_.expect(begin_s, end_s);
