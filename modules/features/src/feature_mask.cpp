@@ -81,14 +81,7 @@ bool FeatureMask::usable(const Eigen::Vector2d& u) const {
 
 GreyImage FeatureMask::picture(int width, int height) const {
   if (polygons_.empty() && picture_.empty()) return {};
-  constexpr std::uint8_t kWhite = 255;
-  GreyImage picture(width, height, kWhite);
-  for (int v = 0; v < height; ++v) {
-    for (int u = 0; u < width; ++u) {
-      if (!usable(Eigen::Vector2d(u, v))) picture.row(v)[u] = 0;
-    }
-  }
-  return picture;
+  return dark_where(width, height, [this](const Eigen::Vector2d& u) { return !usable(u); });
 }
 
 void FeatureMask::require_size(int width, int height) const {

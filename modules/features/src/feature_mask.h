@@ -5,10 +5,24 @@
 
 #include <Eigen/Core>
 
+#include <cstdint>
 #include <string>
 #include <vector>
 
 namespace oneac::internal {
+
+/// White, and dark where a place [px] is not used.
+template <class Unused>
+[[nodiscard]] GreyImage dark_where(int width, int height, Unused&& unused) {
+  constexpr std::uint8_t kWhite = 255;
+  GreyImage picture(width, height, kWhite);
+  for (int v = 0; v < height; ++v) {
+    for (int u = 0; u < width; ++u) {
+      if (unused(Eigen::Vector2d(u, v))) picture.row(v)[u] = 0;
+    }
+  }
+  return picture;
+}
 
 /// Parts of the image that are not used: polygons and a picture.
 class FeatureMask {

@@ -256,10 +256,16 @@ CellGrid grid_of(int columns, int rows) {
   return grid;
 }
 
-TEST(CarRegion, FillsBelowALongOutlineAndNotBelowASpeck) {
-  const CellGrid grid = grid_of(40, 20);
+/// All below the horizon, nothing known of them.
+std::vector<CellState> low_cells(const CellGrid& grid) {
   std::vector<CellState> cells(grid.size());
   for (auto& cell : cells) cell.low = true;
+  return cells;
+}
+
+TEST(CarRegion, FillsBelowALongOutlineAndNotBelowASpeck) {
+  const CellGrid grid = grid_of(40, 20);
+  std::vector<CellState> cells = low_cells(grid);
   for (int column = 5; column < 30; column += 2) cells[grid.at(column, 14)].rests = true;
   cells[grid.at(36, 5)].rests = true;
   const std::vector<bool> car = car_region(grid, cells);
@@ -272,8 +278,7 @@ TEST(CarRegion, FillsBelowALongOutlineAndNotBelowASpeck) {
 
 TEST(CarRegion, DoesNotFillWhereTheRoadIsSeenBelow) {
   const CellGrid grid = grid_of(40, 20);
-  std::vector<CellState> cells(grid.size());
-  for (auto& cell : cells) cell.low = true;
+  std::vector<CellState> cells = low_cells(grid);
   for (int column = 5; column < 30; ++column) {
     cells[grid.at(column, 14)].rests = true;
     for (int row = 16; row < 20; ++row) cells[grid.at(column, row)].moves = true;
@@ -286,8 +291,7 @@ TEST(CarRegion, DoesNotFillWhereTheRoadIsSeenBelow) {
 // Reflections move. They lie between the bonnet's edge and the dust below them.
 TEST(CarRegion, FillsBetweenTheOutlineAndTheLowestRestWhereMostMoves) {
   const CellGrid grid = grid_of(40, 20);
-  std::vector<CellState> cells(grid.size());
-  for (auto& cell : cells) cell.low = true;
+  std::vector<CellState> cells = low_cells(grid);
   for (int column = 5; column < 30; ++column) {
     cells[grid.at(column, 14)].rests = true;
     for (int row = 15; row < 20; ++row) cells[grid.at(column, row)].moves = true;

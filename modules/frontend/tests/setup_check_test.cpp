@@ -1,7 +1,7 @@
 #include "setup/setup_check.h"
 
 #include "oneac/geometry/homography.h"
-#include "oneac/geometry/leveling.h"
+#include "oneac/geometry/levelling.h"
 #include "oneac/observations/sensor_mount.h"
 #include "oneac/test_support/scenes.h"
 
@@ -54,7 +54,7 @@ TwoView seen_by(const MountAngles& real, const Eigen::Vector3d& way_of_vehicle) 
 }
 
 Eigen::Matrix3d levelling(const MountAngles& believed) {
-  return leveling_rotation(tilt_from_mounting(mount_rotation(believed)));
+  return levelling_rotation(tilt_from_mounting(mount_rotation(believed)));
 }
 
 /// What is said of a straight drive with a camera believed to be mounted like this.

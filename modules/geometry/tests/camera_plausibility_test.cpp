@@ -8,15 +8,19 @@
 namespace oneac {
 namespace {
 
+PinholeCamera camera_of(int width, int height, double focal, double cx, double cy) {
+  PinholeCamera camera;
+  camera.width = width;
+  camera.height = height;
+  camera.fx = camera.fy = focal;
+  camera.cx = cx;
+  camera.cy = cy;
+  return camera;
+}
+
 /// KITTI 03's.
 PinholeCamera kitti() {
-  PinholeCamera camera;
-  camera.width = 1242;
-  camera.height = 375;
-  camera.fx = camera.fy = 721.5377;
-  camera.cx = 609.5593;
-  camera.cy = 172.854;
-  return camera;
+  return camera_of(1242, 375, 721.5377, 609.5593, 172.854);
 }
 
 /// The only fault that is found.
@@ -93,24 +97,14 @@ TEST(CameraPlausibility, TheMiddleHalfEndsAtAQuarter) {
 }
 
 TEST(CameraPlausibility, WritesHugeNumbersShortly) {
-  PinholeCamera camera;
-  camera.width = 800;
-  camera.height = 600;
-  camera.fx = camera.fy = 1e300;
-  camera.cx = 404.0;
-  camera.cy = 309.0;
+  PinholeCamera camera = camera_of(800, 600, 1e300, 404.0, 309.0);
   const auto faults = camera_faults(camera);
   ASSERT_EQ(faults.size(), 1U);
   EXPECT_LT(faults[0].size(), 150U) << faults[0];
 }
 
 TEST(CameraPlausibility, NoticesASwappedPrincipalPointWithinTheMiddleHalf) {
-  PinholeCamera camera;
-  camera.width = 640;
-  camera.height = 480;
-  camera.fx = camera.fy = 500.0;
-  camera.cx = 239.5;
-  camera.cy = 319.5;
+  PinholeCamera camera = camera_of(640, 480, 500.0, 239.5, 319.5);
   const auto faults = camera_faults(camera);
   ASSERT_EQ(faults.size(), 1U);
   EXPECT_NE(faults[0].find("look swapped"), std::string::npos) << faults[0];

@@ -4,7 +4,7 @@
 #include "oneac/base/require.h"
 #include "oneac/geometry/angles.h"
 #include "oneac/geometry/camera_frame.h"
-#include "oneac/geometry/leveling.h"
+#include "oneac/geometry/levelling.h"
 
 #include <algorithm>
 #include <cmath>
@@ -59,7 +59,7 @@ void MountAngles::validate() const {
 Eigen::Matrix3d mount_rotation(const MountAngles& angles) {
   const Eigen::AngleAxisd yaw(angles.yaw_left_deg * kDegree, Eigen::Vector3d::UnitZ());
   return yaw.toRotationMatrix() * CameraFrame::forward_looking_mount().linear() *
-         leveling_rotation({angles.pitch_up_deg * kDegree, angles.roll_right_deg * kDegree});
+         levelling_rotation({angles.pitch_up_deg * kDegree, angles.roll_right_deg * kDegree});
 }
 
 std::string to_string(MountConvention convention) {

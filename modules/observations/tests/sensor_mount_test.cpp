@@ -3,7 +3,7 @@
 #include "log_maker.h"
 
 #include "oneac/geometry/camera_frame.h"
-#include "oneac/geometry/leveling.h"
+#include "oneac/geometry/levelling.h"
 
 #include <gtest/gtest.h>
 #include <mrpt/poses/CPose3D.h>

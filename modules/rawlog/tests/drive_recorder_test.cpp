@@ -3,7 +3,7 @@
 #include "writing_support.h"
 
 #include "oneac/geometry/camera_frame.h"
-#include "oneac/geometry/leveling.h"
+#include "oneac/geometry/levelling.h"
 #include "oneac/rawlog/rawlog_source.h"
 #include "oneac/test_support/temporary_folder.h"
 
@@ -32,7 +32,7 @@ DriveRecording small_drive() {
   DriveRecording drive;
   drive.camera = {64, 48, 50.0, 50.0, 31.5, 23.5, {}};
   drive.T_vehicle_cam = CameraFrame::forward_looking_mount();
-  drive.T_vehicle_cam.linear() *= leveling_rotation({5.0 * kDegree, 0.0});
+  drive.T_vehicle_cam.linear() *= levelling_rotation({5.0 * kDegree, 0.0});
   drive.T_vehicle_cam.translation().z() = 1.5;
   for (int i = 0; i < kFrames; ++i) {
     Eigen::Isometry3d T = drive.T_vehicle_cam;

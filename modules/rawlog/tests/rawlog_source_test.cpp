@@ -2,7 +2,7 @@
 
 #include "log_maker.h"
 
-#include "oneac/geometry/leveling.h"
+#include "oneac/geometry/levelling.h"
 #include "oneac/test_support/temporary_folder.h"
 
 #include <gtest/gtest.h>

@@ -3,7 +3,7 @@
 #include "writing_support.h"
 
 #include "oneac/geometry/camera_frame.h"
-#include "oneac/geometry/leveling.h"
+#include "oneac/geometry/levelling.h"
 #include "oneac/test_support/temporary_folder.h"
 
 #include <gtest/gtest.h>
@@ -32,7 +32,7 @@ PinholeCamera camera() {
 
 Eigen::Isometry3d tilted_mount() {
   Eigen::Isometry3d T = CameraFrame::forward_looking_mount();
-  T.linear() = T.linear() * leveling_rotation({8.2 * kDegree, 0.0});
+  T.linear() = T.linear() * levelling_rotation({8.2 * kDegree, 0.0});
   T.translation() << 0.785, 0.1, 1.5;
   return T;
 }

@@ -168,13 +168,7 @@ TEST(Relpose1acPlanarFocal, FaultsAndPureRotationsGiveNothing) {
 TEST(Relpose1acPlanarFocal, NeverReturnsNaNOnExtremeNumbers) {
   SceneGenerator scene(9);
   for (int i = 0; i < 20000; ++i) {
-    AffineCorrespondence ac;
-    const auto wild = [&scene] {
-      return scene.normal(1.0) * std::pow(10.0, scene.uniform(-80, 80));
-    };
-    ac.x1 = {wild(), wild()};
-    ac.x2 = {wild(), wild()};
-    ac.A << wild(), wild(), wild(), wild();
+    const AffineCorrespondence ac = extreme_correspondence(scene);
     for (const PlanarFocalPose& pose : relpose_1ac_planar_focal(ac)) {
       EXPECT_TRUE(pose.pose().is_finite() && std::isfinite(pose.focal)) << "case " << i;
     }

@@ -122,13 +122,7 @@ TEST(Relpose1acPlanar, HorizonGivesNothing) {
 TEST(Relpose1acPlanar, NeverReturnsNaNOnExtremeNumbers) {
   SceneGenerator scene(8);
   for (int i = 0; i < 20000; ++i) {
-    AffineCorrespondence ac;
-    const auto wild = [&scene] {
-      return scene.normal(1.0) * std::pow(10.0, scene.uniform(-80, 80));
-    };
-    ac.x1 = {wild(), wild()};
-    ac.x2 = {wild(), wild()};
-    ac.A << wild(), wild(), wild(), wild();
+    const AffineCorrespondence ac = extreme_correspondence(scene);
     for (const PlanarPose& pose : relpose_1ac_planar(ac)) {
       EXPECT_TRUE(pose.pose().is_finite()) << "case " << i << " of seed 8";
     }

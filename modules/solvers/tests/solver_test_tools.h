@@ -65,6 +65,16 @@ inline std::vector<Fault> faults(const AffineCorrespondence& good) {
   return list;
 }
 
+/// Numbers of any size that a double holds without overflow in products of three.
+inline AffineCorrespondence extreme_correspondence(SceneGenerator& scene) {
+  const auto wild = [&scene] { return scene.normal(1.0) * std::pow(10.0, scene.uniform(-80, 80)); };
+  AffineCorrespondence ac;
+  ac.x1 = {wild(), wild()};
+  ac.x2 = {wild(), wild()};
+  ac.A << wild(), wild(), wild(), wild();
+  return ac;
+}
+
 /// What a camera sees that only turns: pure yaw, of any scene.
 inline AffineCorrespondence pure_rotation(double alpha, const Eigen::Vector2d& x1) {
   return *correspondence_from_homography(yaw_rotation(std::cos(alpha), std::sin(alpha)), x1);

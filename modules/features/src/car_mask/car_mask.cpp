@@ -1,5 +1,6 @@
 #include "car_mask.h"
 
+#include "../feature_mask.h"
 #include "travel.h"
 
 #include "oneac/geometry/angles.h"
@@ -204,14 +205,7 @@ bool CarMask::is_car(const Eigen::Vector2d& u) const {
 
 GreyImage CarMask::picture() const {
   if (!any_) return {};
-  constexpr std::uint8_t kWhite = 255;
-  GreyImage image(width_, height_, kWhite);
-  for (int v = 0; v < height_; ++v) {
-    for (int u = 0; u < width_; ++u) {
-      if (is_car(Eigen::Vector2d(u, v))) image.row(v)[u] = 0;
-    }
-  }
-  return image;
+  return dark_where(width_, height_, [this](const Eigen::Vector2d& u) { return is_car(u); });
 }
 
 }  // namespace oneac::internal

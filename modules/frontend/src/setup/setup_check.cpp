@@ -3,7 +3,7 @@
 #include "oneac/base/number_text.h"
 #include "oneac/geometry/angles.h"
 #include "oneac/geometry/camera_plausibility.h"
-#include "oneac/geometry/leveling.h"
+#include "oneac/geometry/levelling.h"
 #include "oneac/geometry/triangulation.h"
 #include "oneac/robust/ground_scale.h"
 
@@ -89,7 +89,7 @@ Eigen::Matrix3d levelling_by_travel(const RelativePose& pose, const Eigen::Matri
   const Eigen::Matrix3d ahead =
       Eigen::Quaterniond::FromTwoVectors(along, Eigen::Vector3d::UnitZ()).toRotationMatrix();
   const Tilt believed = tilt_from_down(R_level_cam.row(1).transpose());
-  return leveling_rotation({0.0, believed.roll_right}) * ahead;
+  return levelling_rotation({0.0, believed.roll_right}) * ahead;
 }
 
 /// Where a road lies: at the nearest plane, turned by quarters to the right about the axis.
@@ -154,7 +154,7 @@ void SetupCheck::start(const CameraFrame& first) {
   faults_ = of_camera_;
   const Eigen::Matrix3d R_vehicle_cam = first.T_vehicle_cam.linear();
   believed_ = angles_of(R_vehicle_cam);
-  const Eigen::Matrix3d R_level_cam = leveling_rotation(tilt_from_mounting(R_vehicle_cam));
+  const Eigen::Matrix3d R_level_cam = levelling_rotation(tilt_from_mounting(R_vehicle_cam));
   nose_ = R_level_cam * R_vehicle_cam.transpose() * Eigen::Vector3d::UnitX();
 }
 

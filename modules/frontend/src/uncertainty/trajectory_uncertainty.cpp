@@ -13,15 +13,9 @@ using Matrix6 = Eigen::Matrix<double, 6, 6>;
 // [m] way over which the map's own error of scale lasts: near landmarks stay in view for so long.
 constexpr double kScaleMemory = 20.0;
 constexpr double kUnknownLength = 1.0;  // relative 1σ of a length that is not metric
-// [-] 1σ of all turns together, by a focal length that is wrong by as much: KITTI's own camera of
-// drive 03 is known to half a percent, those of other days to two.
+// [-] 1σ of all turns together: a focal length that is wrong by as much makes them wrong by as
+// much, and published calibrations have been seen two per cent off.
 constexpr double kTurnScale = 0.01;
-
-Eigen::Matrix3d cross(const Eigen::Vector3d& a) {
-  Eigen::Matrix3d m;
-  m << 0.0, -a.z(), a.y(), a.z(), 0.0, -a.x(), -a.y(), a.x(), 0.0;
-  return m;
-}
 
 /// The step's covariance for its length in the trajectory, without what is known along t.
 Matrix6 beside_length(const StepResult& step, double length) {
@@ -59,9 +53,9 @@ class Chain {
  private:
   void add_turns(const StepResult& step, const Eigen::Vector3d& d, const Eigen::Matrix3d& R) {
     Matrix6 carried = Matrix6::Identity(), from_step = Matrix6::Zero();
-    carried.bottomLeftCorner<3, 3>() = -cross(d);
+    carried.bottomLeftCorner<3, 3>() = -cross_matrix(d);
     from_step.topLeftCorner<3, 3>() = -R;
-    from_step.bottomLeftCorner<3, 3>() = -R * cross(-R.transpose() * d);
+    from_step.bottomLeftCorner<3, 3>() = -R * cross_matrix(-R.transpose() * d);
     from_step.bottomRightCorner<3, 3>() = -R;
     turns_ = carried * turns_ * carried.transpose() +
              from_step * beside_length(step, d.norm()) * from_step.transpose();

@@ -5,7 +5,7 @@
 #include "import/malaga_text.h"
 
 #include "oneac/geometry/camera_frame.h"
-#include "oneac/geometry/leveling.h"
+#include "oneac/geometry/levelling.h"
 #include "oneac/rawlog/rawlog_writer.h"
 
 #include <algorithm>
@@ -23,7 +23,7 @@ constexpr double kTilt = 8.2 * M_PI / 180.0;  // upwards; as in the dataset's ow
 /// The left camera on the vehicle, as in the dataset's own logs where nobody says otherwise.
 Eigen::Isometry3d malaga_mount(const std::optional<MountAngles>& given) {
   Eigen::Isometry3d T = CameraFrame::forward_looking_mount();
-  T.linear() = given ? mount_rotation(*given) : T.linear() * leveling_rotation({kTilt, 0.0});
+  T.linear() = given ? mount_rotation(*given) : T.linear() * levelling_rotation({kTilt, 0.0});
   T.translation() << 0.785, 0.0, 0.273;
   return T;
 }

@@ -1,6 +1,6 @@
 #include "read/log_layout.h"
 
-#include "oneac/geometry/leveling.h"
+#include "oneac/geometry/levelling.h"
 #include "oneac/rawlog/log_summary.h"
 
 #include <algorithm>
