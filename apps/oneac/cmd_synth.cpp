@@ -126,9 +126,9 @@ void add_synth(CLI::App& program) {
   const auto arguments = std::make_shared<SynthArguments>();
   StudyOptions& options = arguments->options;
   verb->add_option("-o,--output", arguments->folder, "Folder to write to");
-  verb->add_option(
-      "--figure", options.figures,
-      "Letter (i: i1 … i4, s: the supplement's) or name, may be repeated; all by default");
+  verb->add_option("--figure", options.figures,
+                   "Letter (i: i1 … i4, s: the supplement's, v: v1 … v10) or name, may be "
+                   "repeated; all by default");
   verb->add_option("--trials", options.trials, "Per point of a curve")
       ->check(CLI::Range(1, 100000000))  // a size_t would take −3 for a large number
       ->capture_default_str();

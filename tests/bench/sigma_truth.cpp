@@ -4,11 +4,10 @@
 //
 //   oneac_bench_sigma_truth RUN_FOLDER REFERENCE [--aligned] [--reference-noise DEG METRES]
 //
-// --aligned            the reference's camera is turned against the images' by one rotation, found
-// as
-//                      the mean of the errors of direction, and taken out (a reference by GPS and
-//                      IMU)
-// --reference-noise    1 sigma of a reference pose, rotation per axis and position per axis, adds
+// --aligned takes out one rotation of the reference's camera against the images', the mean of the
+// errors of direction (a reference by GPS and IMU); --reference-noise adds 1 sigma of a reference
+// pose, rotation and position per axis.
+
 #include "oneac/evaluation/covariance_io.h"
 #include "oneac/evaluation/pair_errors.h"
 #include "oneac/evaluation/relative_poses_io.h"

@@ -39,11 +39,9 @@ constexpr double kElsewhere = 0.5, kRarerBelow = 0.25;
 // A road is nearer than other planes by this: 1.5 m below the camera, where walls stand at 2.3 m.
 constexpr double kNearer = 1.5;
 // [heights] to each side of the point below the camera, and share of a road's points beyond: two
-// thirds of a lane's half. A wall reaches down to the ground only: less, unless it stands within 2
-// m.
+// thirds of a lane's half. A wall reaches down to the ground only: less, unless it is within 2 m.
 constexpr double kToEachSide = 0.8, kShareAtEachSide = 0.1;
-// [rad] of a camera's axis from the vehicle's: beyond, the travel does not show how far it looks
-// up.
+// [rad] of a camera's axis from the vehicle's: beyond, travel does not show its pitch.
 constexpr double kLooksAside = 45.0 * kDegree;
 // [rad] a pitch that nobody told is zero.
 constexpr double kNoPitch = 1e-6;

@@ -25,8 +25,7 @@ struct StepResult {
   std::size_t index1 = 0, index2 = 0;  ///< images of the camera in the log
   double time1 = 0.0, time2 = 0.0;     ///< [s] Unix time
   StepStatus status = StepStatus::kPredicted;
-  /// T_2_1 of the two images alone, camera optical frame; t in metres when metric, else |t| = 1 or
-  /// 0
+  /// T_2_1 of the two images alone, optical frames; t in metres when metric, else |t| is 1 or 0
   RelativePose pose;
   bool metric = false;  ///< t is in metres: the scale is known well enough, or the car stood
   double length = 0.0;  ///< [m, or units while the drive has no scale] step used in the trajectory
@@ -46,8 +45,8 @@ struct StepResult {
 struct FrameResult {
   std::size_t index = 0;
   double time_s = 0.0;
-  /// Camera in the first camera's frame, as known now; `settled` of a later result has the final
-  /// one.
+  /// Camera in the first camera's frame, as known now; the final one is in `settled` of a later
+  /// result.
   Eigen::Isometry3d T_first_cam = Eigen::Isometry3d::Identity();
   /// The same by the steps alone, one after the other as each was told when it came: it drifts, but
   /// never jumps and is never corrected (`odom` of ROS, where T_first_cam is `map`).
