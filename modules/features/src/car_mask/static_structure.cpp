@@ -6,10 +6,10 @@
 namespace oneac::internal {
 namespace {
 
-constexpr float kGreyUnit = 1.0F / 16.0F;  // of a pyramid's pixels
-constexpr int kMemory = 30;                // [frames] that a mean reaches back: one or two seconds
-constexpr int kLeastFrames = 12;           // passing structure keeps a twelfth then
-constexpr float kRadial = 0.25F;           // least cos² between gradient and flow
+constexpr float kGreyUnit = 1.0F / PyramidLevel::kPerGrey;
+constexpr int kMemory = 30;       // [frames] that a mean reaches back: one or two seconds
+constexpr int kLeastFrames = 12;  // passing structure keeps a twelfth then
+constexpr float kRadial = 0.25F;  // least cos² between gradient and flow
 // Mean (g·r)² of a cell [grey²/px²]: an edge of 8 grey levels across it. JPEG blocks stay below 1.
 constexpr float kStructure = 4.0F;
 constexpr float kRestsShare = 0.6F;   // of (g·r)² in the mean: a sway of the car costs a third

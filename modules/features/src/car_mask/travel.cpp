@@ -9,7 +9,7 @@
 namespace oneac::internal {
 namespace {
 
-constexpr float kGreyUnit = 1.0F / 16.0F;  // of a pyramid's pixels
+constexpr float kGreyUnit = 1.0F / PyramidLevel::kPerGrey;
 // [grey/px] a gradient that image noise (below 1 grey after smoothing) places to a third of a px.
 constexpr float kLeastGradient = 3.0F;
 constexpr float kRest = 0.04F;          // [px of the level] the noise of a flow by such a gradient

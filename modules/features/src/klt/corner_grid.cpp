@@ -12,7 +12,7 @@ constexpr int kBorder = 6;           // [px of level 1] the smallest window must
 constexpr std::size_t kPerCell = 6;  // reserve for cells whose neighbours are empty
 // [grey per px of level 1] a mean square gradient below JPEG noise of about one grey level.
 constexpr float kLeastGradient = 1.0F;
-constexpr float kGrey = 16.0F;
+constexpr float kGrey = PyramidLevel::kPerGrey;
 
 /// Products of the gradient summed over 7 rows, one entry per column.
 struct ColumnSums {

@@ -13,7 +13,8 @@ namespace oneac::internal {
 /// One smoothed image of a pyramid, in sixteenths of a grey level, with its border repeated
 /// outwards.
 struct PyramidLevel {
-  static constexpr int kBorder = 24;  ///< [px] room for a window whose centre is on the border
+  static constexpr int kBorder = 24;   ///< [px] room for a window whose centre is on the border
+  static constexpr int kPerGrey = 16;  ///< units of a pixel in one grey level
 
   int width = 0;
   int height = 0;

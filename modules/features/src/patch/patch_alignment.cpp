@@ -10,7 +10,7 @@
 namespace oneac::internal {
 namespace {
 
-constexpr double kGrey = 16.0;                  // pyramid units of one grey level
+constexpr double kGrey = PyramidLevel::kPerGrey;
 constexpr double kLeastContrast = 2.0 * kGrey;  // below it a patch is noise
 // Steps shrink to a half or faster where the texture determines them: from 3 px to 0.1 px in five.
 constexpr int kMaxShiftIterations = 8;

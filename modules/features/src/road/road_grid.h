@@ -55,7 +55,7 @@ struct GreySample {
 };
 
 /// [grey levels] per unit of the pyramid's pixels.
-constexpr float kGreyPerUnit = 1.0F / 16.0F;
+constexpr float kGreyPerUnit = 1.0F / PyramidLevel::kPerGrey;
 
 inline bool inside_level(const PyramidLevel& level, double u, double v) {
   return u >= 0.0 && v >= 0.0 && u < level.width - 1 && v < level.height - 1;
