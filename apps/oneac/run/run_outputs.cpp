@@ -12,6 +12,7 @@
 #include <cmath>
 #include <stdexcept>
 #include <system_error>
+#include <utility>
 
 namespace oneac::app {
 
@@ -83,6 +84,34 @@ std::string about_missing_scale(const DriveRecord& record) {
          "; give --camera-height, or set front_end.scale.source: gps";
 }
 
+/// Who could have told a length in metres.
+std::string tellers(const DriveRecord& record) {
+  if (record.scale_source == "gps") return "landmarks nor GPS speeds";
+  return record.scale_source == "stereo" ? "landmarks nor right images" : "landmarks nor the road";
+}
+
+/// Where a drive in metres has none; empty when it has them everywhere.
+std::string about_steps_without_metres(const DriveRecord& record) {
+  std::size_t steps = 0, before = 0, later = 0;
+  bool known = false;
+  for (const FrameResult& frame : record.frames) {
+    if (!frame.step) continue;
+    ++steps;
+    known = known || frame.step->metric;
+    if (!frame.step->metric) ++(known ? later : before);
+  }
+  if (before + later == 0) return "";
+  std::string text = std::to_string(before + later) + " of " + std::to_string(steps) +
+                     " steps are not in metres: ";
+  if (before > 0) text += std::to_string(before) + " before the first that was measured";
+  if (before > 0 && later > 0) text += ", ";
+  if (later > 0) {
+    text += std::to_string(later) + " of which neither " + tellers(record) +
+            " told the length well enough";
+  }
+  return text;
+}
+
 /// Nothing learned: none, and none of a run before.
 void write_mask(const GreyImage& mask, const std::filesystem::path& file) {
   std::error_code absent;
@@ -147,6 +176,11 @@ std::vector<std::string> notes_about(const DriveRecord& record) {
   const bool told = !record.setup_faults.empty();
   if (!told && !record.has_scale() && record.frames.size() > 1) {
     notes.push_back(about_missing_scale(record));
+  }
+  if (!told && record.has_scale()) {
+    if (std::string text = about_steps_without_metres(record); !text.empty()) {
+      notes.push_back(std::move(text));
+    }
   }
   const auto predicted =
       std::count_if(record.frames.begin(), record.frames.end(), [](const FrameResult& frame) {

@@ -86,6 +86,8 @@ FrameResult FrontEnd::process(PreparedFrame prepared) {
     road = {previous_road_, road_image(prepared.features, frame.image.view()), frame.camera, {}};
     correspondences_ = tracker_->advance(std::move(prepared.features), hint());
     road.mask = tracker_->unused();
+    road.car_is_known = tracker_->knows_car();
+    road.shows_travel = tracker_->shows_travel();
     if (stereo_) correspondences_ = with_stereo_depths(std::move(correspondences_), frame);
     pair = normalised(correspondences_, previous_camera_, frame);
   }

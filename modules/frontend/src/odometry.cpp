@@ -140,7 +140,7 @@ FrameResult Odometry::start(const CameraFrame& frame) {
 FrameResult Odometry::advance(const CameraFrame& frame, TrackedPair pair, const RoadPair& road) {
   TwoView seen = two_view_.estimate(
       std::move(pair), {attitude_.now().R_level_cam, last_motion_, frame.camera.focal_px(),
-                        map_.frames(), motion_prior(frame.time_s)});
+                        map_.frames(), course_.now(straight_ahead()), motion_prior(frame.time_s)});
   const double estimate_ms = seen.estimate_ms, refine_ms = seen.refine_ms;
   double map_ms = 0.0;
   FrameResult result;
@@ -159,6 +159,8 @@ FrameResult Odometry::integrate(const FrameStamp& now, TwoView seen, const RoadP
     seen = refused(std::move(seen), last_motion_);
   }
   StepInTime in_time = step_in_time(before, now, seen, last_motion_);
+  in_time.car_is_known = road.car_is_known;
+  in_time.shows_travel = road.shows_travel;
   const auto rest = scale_.rest_by_road(road, seen, attitude_.now(), heading(), in_time);
   if (rest) {
     seen = resting(std::move(seen));
@@ -173,6 +175,7 @@ FrameResult Odometry::integrate(const FrameStamp& now, TwoView seen, const RoadP
   const auto told = scale_.measure(seen, link.carried, attitude_.now());
   setup_.follow(seen, attitude_.now().R_level_cam);
   const StepLength length = setup_.checked(scale_.length_of(in_time, told));
+  if (seen.status == StepStatus::kOk) course_.follow(seen.pose.t.normalized());
   seen = as_it_moved(std::move(seen), length, heading());
   if (seen.pose.t.norm() > 0.0) heading_ = seen.pose.t.normalized();
   if (scale_.map_is_refuted()) map_.forget();
@@ -198,7 +201,11 @@ std::optional<ScaleCorrection> Odometry::scale_correction(const std::optional<Ma
 
 Eigen::Vector3d Odometry::heading() const {
   if (heading_.norm() > 0.0) return heading_;
-  return -attitude_.now().R_level_cam.row(2).transpose();  // straight ahead
+  return straight_ahead();
+}
+
+Eigen::Vector3d Odometry::straight_ahead() const {
+  return -attitude_.now().R_level_cam.row(2).transpose();
 }
 
 MotionPrior Odometry::motion_prior(double end_s) const {

@@ -47,11 +47,14 @@ class Odometry {
   [[nodiscard]] MotionPrior motion_prior(double end_s) const;
   /// t̂ of a camera that goes on as it did.
   [[nodiscard]] Eigen::Vector3d heading() const;
+  /// t̂ of a camera that travels as it is mounted.
+  [[nodiscard]] Eigen::Vector3d straight_ahead() const;
   [[nodiscard]] std::optional<ScaleCorrection> scale_correction(
       const std::optional<MapLengths>& lengths, double focal_px);
 
   TwoViewEstimator two_view_;
   TurnGate turn_gate_;
+  CourseBelief course_;
   Attitude attitude_;
   Scale scale_;
   SetupCheck setup_;

@@ -149,6 +149,29 @@ TEST(Scale, ARestThatNobodySawOnTheRoadIsNotMetric) {
   EXPECT_FALSE(scale.length_of(rest({}), {}).metric);
 }
 
+TEST(Scale, ARestThatMayBeTheBonnetsIsNotMetricBeforeASpeedIsKnown) {
+  const auto rest_of_a_drive = [](bool moved, bool car_is_known) {
+    Scale scale = started(by("height"));
+    const StepStatus before = moved ? StepStatus::kOk : StepStatus::kNoMotion;
+    static_cast<void>(scale.length_of(step(before, 10.0, 1.0), {}));
+    StepInTime resting = rest(MeasuredTravel{0.001, 0.004, LengthSource::kRoadImage, true});
+    resting.car_is_known = car_is_known;
+    return scale.length_of(resting, {});
+  };
+  EXPECT_TRUE(rest_of_a_drive(false, false).metric) << "nothing has moved yet";
+  EXPECT_FALSE(rest_of_a_drive(true, false).metric);
+  EXPECT_TRUE(rest_of_a_drive(true, true).metric) << "the bonnet is masked, or there is none";
+}
+
+TEST(Scale, ImagesThatShowTravelShowNoRestBeforeASpeedIsKnown) {
+  Scale scale = started(by("height"));
+  StepInTime resting = rest(MeasuredTravel{0.001, 0.004, LengthSource::kRoadImage, true});
+  resting.shows_travel = true;
+  const StepLength length = scale.length_of(resting, {});
+  EXPECT_FALSE(length.metric);
+  EXPECT_GT(length.length, 0.0);
+}
+
 TEST(Scale, ARestThatNobodySawDoesNotConfirmItself) {
   Scale scale = started(by("height"));
   static_cast<void>(

@@ -29,6 +29,8 @@ class CarMask {
   bool observe(const ImagePyramid& now, const MotionHint& hint);
   /// Whether the image given last shows travel since the one before, by itself.
   [[nodiscard]] bool shows_travel() const { return shows_travel_; }
+  /// Whether there was enough travel to tell what the car is.
+  [[nodiscard]] bool knows() const { return knows_; }
   /// Whether what is here must have moved to the image given last, or be the car: only until there
   /// was enough travel to tell what the car is. [px of level 0]
   [[nodiscard]] bool must_move(const Eigen::Vector2d& u) const;

@@ -80,7 +80,7 @@ void KltTracker::learn_car(const KltFrame& now, const MotionHint& hint) {
 
 bool KltTracker::stands(const KltFrame& now) const {
   // Where most tracks are the car's own, they stand whatever the car does.
-  if (options_.mask.learn && car_mask_.shows_travel()) return false;
+  if (shows_travel()) return false;
   return is_standing(tracks_, anchor_->pyramid, now.pyramid, options_.klt.standing_px);
 }
 

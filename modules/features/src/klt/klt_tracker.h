@@ -30,6 +30,12 @@ class KltTracker : public AcTracker {
                                     const MotionHint& hint) override;
   void reset() override;
   [[nodiscard]] GreyImage car_mask() const override { return car_mask_.picture(); }
+  [[nodiscard]] bool knows_car() const override {
+    return !options_.mask.learn || car_mask_.knows();
+  }
+  [[nodiscard]] bool shows_travel() const override {
+    return options_.mask.learn && car_mask_.shows_travel();
+  }
   [[nodiscard]] bool car_mask_refused() const override { return car_mask_.is_refused(); }
   [[nodiscard]] ImageView unused() const override { return unused_.view(); }
 

@@ -175,8 +175,12 @@ StepLength Scale::held(const StepInTime& step) const {
 
 StepLength Scale::at_rest(const StepInTime& step) const {
   const auto expected = inertia_.expect(step.begin_s, step.end_s);
+  if (!expected && step.shows_travel) return held(step);
   StepLength result;
   result.source = LengthSource::kStanding;
+  // While no speed is known, a bonnet rests as a road at rest does: before anything has moved the
+  // car stands; afterwards that is known only where the car is.
+  const bool may_be_the_car = !expected && moved_ && !step.car_is_known;
   if (const auto& told = step.direct) {
     const bool moves = told->length > std::max(kStillness, kMoves * told->sigma);
     if (moves && told->in_metres) {
@@ -184,7 +188,7 @@ StepLength Scale::at_rest(const StepInTime& step) const {
       if (!expected || expected->allows(direct.length, direct.sigma_m)) return direct;
       return held(step);
     }
-    result.metric = !moves && told->sigma <= kSureRest;
+    result.metric = !moves && told->sigma <= kSureRest && !may_be_the_car;
     result.sigma_m = std::hypot(told->sigma, told->length);  // what it may have crept
     return result;
   }

@@ -115,6 +115,7 @@ double Scale::Carried::variance() const {
 
 void Scale::remember(const StepInTime& step, const StepLength& length) {
   inertia_.tick(step.begin_s, step.end_s);
+  if (step.status == StepStatus::kOk) moved_ = true;
   const bool measured = length.metric && length.source != LengthSource::kHeld;
   if (step.direct) conflicts_ = length.conflict ? conflicts_ + 1 : 0;
   if (length.source != LengthSource::kHeld || length.metric)

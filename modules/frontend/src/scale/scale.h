@@ -23,6 +23,8 @@ struct StepInTime {
   double begin_s = 0.0, end_s = 0.0;     ///< [s] Unix times of the two frames
   RelativePose expected;                 ///< motion of the step before, length as used
   std::optional<MeasuredTravel> direct;  ///< what the road's grey values or stereo say of it
+  bool car_is_known = true;              ///< what rests in the images is not the car's own
+  bool shows_travel = false;             ///< the images show travel, whatever rests in them
 
   [[nodiscard]] double seconds() const { return end_s - begin_s; }
 };
@@ -156,6 +158,7 @@ class Scale {
   Inertia inertia_;
   Interval interval_;
   bool needs_road_image_ = true;  ///< the road's corners did not measure the last keyframe
+  bool moved_ = false;            ///< a motion was seen since the drive began
   int unchecked_ = 0;             ///< steps since the road's grey values were asked
   int conflicts_ = 0;             ///< steps in a row in which road and map disagreed
   int contradicted_ = 0;          ///< steps in a row in which nobody agreed with inertia

@@ -1,5 +1,6 @@
 #include "two_view.h"
 
+#include "basin_choice.h"
 #include "perspective_correction.h"
 
 #include "oneac/base/thread_clock.h"
@@ -42,6 +43,7 @@ TwoViewEstimator::TwoViewEstimator(const FrontEndOptions& options,
       refine_(options.refine),
       refine_enabled_(options.refine_enabled),
       perspective_(options.perspective),
+      threshold_px_(options.consensus.threshold_px),
       seed_(options.seed) {}
 
 TwoView TwoViewEstimator::estimate(TrackedPair pair, const TwoViewPrior& prior) const {
@@ -60,7 +62,10 @@ TwoView TwoViewEstimator::estimate(TrackedPair pair, const TwoViewPrior& prior) 
   result.covariance = found.covariance;
   result.motion = found.motion;
   result.inliers = std::move(found.inliers);
-  return result.status == StepStatus::kOk ? refined(std::move(result)) : result;
+  if (result.status != StepStatus::kOk) return result;
+  result = refined(std::move(result));
+  if (!refine_enabled_) return result;
+  return in_likelier_basin(std::move(result), prior.course, refine_, threshold_px_);
 }
 
 InitialiserResult TwoViewEstimator::initialise(const TrackedPair& pair, const TwoViewPrior& prior,

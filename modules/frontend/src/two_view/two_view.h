@@ -1,5 +1,7 @@
 #pragma once
 
+#include "course.h"
+
 #include "oneac/features/correspondence.h"
 #include "oneac/frontend/frame_result.h"
 #include "oneac/geometry/relative_pose.h"
@@ -23,6 +25,7 @@ struct TwoViewPrior {
   RelativePose expected;     ///< motion that goes on when the images do not tell; t of any length
   double focal_px = 1.0;     ///< [px] of one normalised unit
   std::uint64_t number = 0;  ///< of the pair in the drive: methods that draw at random differ by it
+  Course course;             ///< of the vehicle, from the steps before
   MotionPrior motion;        ///< direction and length [camera heights] that inertia lets expect
 };
 
@@ -58,6 +61,7 @@ class TwoViewEstimator {
   RefineOptions refine_;
   bool refine_enabled_;
   bool perspective_;
+  double threshold_px_;
   std::uint64_t seed_;
 };
 

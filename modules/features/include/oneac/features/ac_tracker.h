@@ -46,6 +46,11 @@ class AcTracker {
   [[nodiscard]] virtual GreyImage car_mask() const { return {}; }
   /// Whether more of the images looked like the car than a drive can lose, so that none is masked.
   [[nodiscard]] virtual bool car_mask_refused() const { return false; }
+  /// Whether what is fixed to the car has been told from the scene by now, or need not be: before,
+  /// and with trackers that do not learn, what rests in the images may be the car's own.
+  [[nodiscard]] virtual bool knows_car() const { return false; }
+  /// Whether the image given last shows travel since the one before, whatever its tracks do.
+  [[nodiscard]] virtual bool shows_travel() const { return false; }
   /// What of the images is not used: dark (0) where a mask was given or the car is known to be, of
   /// the images' size; empty where all is used. Valid until the next call of advance().
   [[nodiscard]] virtual ImageView unused() const { return {}; }
