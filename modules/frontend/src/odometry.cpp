@@ -15,6 +15,9 @@ namespace {
 // [rad] 1σ of the direction of travel against that of the step before: springs and steering.
 constexpr double kHeadingSigma = 0.05;
 
+// [m] A shorter step does not tell where the car is going.
+constexpr double kTellingWay = 0.1;
+
 FrameStamp stamp_of(const CameraFrame& frame) {
   return {frame.index, frame.time_s};
 }
@@ -175,7 +178,8 @@ FrameResult Odometry::integrate(const FrameStamp& now, TwoView seen, const RoadP
   const auto told = scale_.measure(seen, link.carried, attitude_.now());
   setup_.follow(seen, attitude_.now().R_level_cam);
   const StepLength length = setup_.checked(scale_.length_of(in_time, told));
-  if (seen.status == StepStatus::kOk) course_.follow(seen.pose.t.normalized());
+  if (seen.status == StepStatus::kOk && length.length > kTellingWay)
+    course_.follow(seen.pose.t.normalized());
   seen = as_it_moved(std::move(seen), length, heading());
   if (seen.pose.t.norm() > 0.0) heading_ = seen.pose.t.normalized();
   if (scale_.map_is_refuted()) map_.forget();

@@ -10,6 +10,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <utility>
 #include <vector>
 
 namespace oneac {
@@ -53,6 +54,11 @@ TrackedPair street() {
   return pair;
 }
 
+TwoView choose(TwoView seen, const Course& course) {
+  const std::vector<bool> all(seen.pair.size(), true);
+  return in_likelier_basin(std::move(seen), all, course, {}, kThreshold_px);
+}
+
 TwoView found(TrackedPair pair, const Eigen::Vector3d& direction) {
   TwoView seen;
   seen.status = StepStatus::kOk;
@@ -72,8 +78,7 @@ double direction_sigma(const TwoView& seen) {
 
 TEST(BasinChoice, APlaneOfCloudsIsSeenFromTheCourse) {
   const Eigen::Vector3d up(0.0, 0.9, -0.4);  // near the second homography
-  const TwoView seen =
-      in_likelier_basin(found(clouds(60.0), up), {kAhead.t, 0.05}, {}, kThreshold_px);
+  const TwoView seen = choose(found(clouds(60.0), up), {kAhead.t, 0.05});
   EXPECT_LT(direction_error(seen.pose.t, kAhead.t), 3.0 * kDegree);
   EXPECT_GT(seen.inlier_count, seen.pair.size() * 9 / 10);
 }
@@ -81,8 +86,7 @@ TEST(BasinChoice, APlaneOfCloudsIsSeenFromTheCourse) {
 TEST(BasinChoice, SaysThatItIsUnsureWhereACourseHardlyPrefersOneOfTwo) {
   const auto sigma_by = [](double course_sigma) {
     const Eigen::Vector3d up(0.0, 0.9, -0.4);
-    return direction_sigma(
-        in_likelier_basin(found(clouds(60.0), up), {kAhead.t, course_sigma}, {}, kThreshold_px));
+    return direction_sigma(choose(found(clouds(60.0), up), {kAhead.t, course_sigma}));
   };
   EXPECT_GT(sigma_by(0.5), 4.0 * kDegree);
   EXPECT_GT(sigma_by(0.5), 3.0 * sigma_by(0.05));
@@ -90,16 +94,16 @@ TEST(BasinChoice, SaysThatItIsUnsureWhereACourseHardlyPrefersOneOfTwo) {
 
 TEST(BasinChoice, TheImagesDecideWhereTheyTell) {
   const Course wrong{Eigen::Vector3d(-0.35, 0.0, -0.94).normalized(), 0.05};
-  const TwoView seen = in_likelier_basin(found(street(), kAhead.t), wrong, {}, kThreshold_px);
+  const TwoView seen = choose(found(street(), kAhead.t), wrong);
   EXPECT_LT(direction_error(seen.pose.t, kAhead.t), 0.3 * kDegree) << "a car that skids";
   EXPECT_LT(direction_sigma(seen), 0.3 * kDegree);
 }
 
 TEST(BasinChoice, LeavesADirectionNearTheCourseAndOneInReverse) {
   const TwoView near = found(clouds(500.0), {0.05, 0.0, -1.0});
-  EXPECT_EQ(in_likelier_basin(near, {kAhead.t, 0.05}, {}, kThreshold_px).pose.t, near.pose.t);
+  EXPECT_EQ(choose(near, {kAhead.t, 0.05}).pose.t, near.pose.t);
   const TwoView back = found(street(), {0.0, 0.0, 1.0});
-  EXPECT_EQ(in_likelier_basin(back, {kAhead.t, 0.05}, {}, kThreshold_px).pose.t, back.pose.t);
+  EXPECT_EQ(choose(back, {kAhead.t, 0.05}).pose.t, back.pose.t);
 }
 
 TEST(CourseBelief, GoesByTheMountUntilThreeStepsAreSeen) {

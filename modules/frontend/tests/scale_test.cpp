@@ -172,6 +172,36 @@ TEST(Scale, ImagesThatShowTravelShowNoRestBeforeASpeedIsKnown) {
   EXPECT_GT(length.length, 0.0);
 }
 
+TEST(Scale, StepsWhoseDirectionsContradictEachOtherDoNotMeasureTheMap) {
+  const auto factor_of = [](double net_in_map) {
+    Scale scale = started(by("height"));
+    for (int i = 0; i < 10; ++i) {
+      StepInTime next = step(StepStatus::kOk, 10.0 + 0.1 * i, 0.1);
+      next.direct = MeasuredTravel{0.1, 0.002, LengthSource::kRoadImage, true};
+      static_cast<void>(scale.length_of(next, {}));
+    }
+    return scale
+        .correct({{{}, {Eigen::Matrix3d::Identity(), {0.0, 0.0, -net_in_map}}}, {}}, {}, kFocal)
+        .factor;
+  };
+  EXPECT_NEAR(factor_of(0.8), 1.25, 0.02) << "ten steps of 0.1 m that the window has shortened";
+  EXPECT_EQ(factor_of(0.2), 1.0) << "there and back: it would stretch the map fivefold";
+}
+
+TEST(Scale, ARestIsNoWayHoweverItsNoiseAddsUp) {
+  Scale scale = started(by("height"));
+  const auto told = [&](double begin_s, StepStatus status, double length) {
+    StepInTime next = step(status, begin_s, 0.1);
+    next.direct = MeasuredTravel{length, 0.005, LengthSource::kRoadImage, true};
+    static_cast<void>(scale.length_of(next, {}));
+  };
+  for (int i = 0; i < 10; ++i) told(10.0 + 0.1 * i, StepStatus::kOk, 0.05);
+  for (int i = 10; i < 60; ++i) told(10.0 + 0.1 * i, StepStatus::kNoMotion, 0.006);
+  const ScaleCorrection correction =
+      scale.correct({{{}, {Eigen::Matrix3d::Identity(), {0.0, 0.0, -0.5}}}, {}}, {}, kFocal);
+  EXPECT_NEAR(correction.factor, 1.0, 0.02);
+}
+
 TEST(Scale, ARestThatNobodySawDoesNotConfirmItself) {
   Scale scale = started(by("height"));
   static_cast<void>(

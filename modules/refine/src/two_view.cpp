@@ -10,6 +10,7 @@
 #include <ceres/loss_function.h>
 #include <ceres/manifold.h>
 #include <ceres/problem.h>
+#include <ceres/sized_cost_function.h>
 #include <ceres/solver.h>
 #include <ceres/sphere_manifold.h>
 
@@ -74,11 +75,44 @@ std::size_t count_true(const std::vector<bool>& flags) {
   return static_cast<std::size_t>(std::count(flags.begin(), flags.end(), true));
 }
 
+/// (t̂ − expected) / σ, two of whose three components count on the sphere.
+class DirectionCost : public ceres::SizedCostFunction<3, 3> {
+ public:
+  explicit DirectionCost(const DirectionPrior& prior) : prior_(prior) {}
+  bool Evaluate(const double* const* parameters, double* residuals,
+                double** jacobians) const override {
+    const Eigen::Map<const Eigen::Vector3d> t(parameters[0]);
+    Eigen::Map<Eigen::Vector3d> r(residuals);
+    r = (t - prior_.direction) / prior_.sigma;
+    if (jacobians != nullptr && jacobians[0] != nullptr) {
+      Eigen::Map<Eigen::Matrix3d> J(jacobians[0]);  // symmetric: rows and columns are alike
+      J = Eigen::Matrix3d::Identity() / prior_.sigma;
+    }
+    return true;
+  }
+
+ private:
+  DirectionPrior prior_;
+};
+
+/// Information of a direction that is expected, along t nothing.
+Eigen::Matrix<double, 6, 6> information_of(const DirectionPrior& prior, const Eigen::Vector3d& t) {
+  Eigen::Matrix<double, 6, 6> information = Eigen::Matrix<double, 6, 6>::Zero();
+  if (!(prior.sigma > 0.0)) return information;
+  information.bottomRightCorner<3, 3>() =
+      (Eigen::Matrix3d::Identity() - t * t.transpose()) / (prior.sigma * prior.sigma);
+  return information;
+}
+
 /// The Ceres problem of one pair; owns what the problem points to.
 class TwoViewProblem {
  public:
-  TwoViewProblem(const TwoViewTerms& terms, const RelativePose& start)
-      : loss_(terms.loss_sigmas), rotation_(start.R), direction_(start.t), problem_(borrowing()) {
+  TwoViewProblem(const TwoViewTerms& terms, const RelativePose& start, const DirectionPrior& prior)
+      : loss_(terms.loss_sigmas),
+        expected_(prior),
+        rotation_(start.R),
+        direction_(start.t),
+        problem_(borrowing()) {
     rotation_.normalize();
     problem_.AddParameterBlock(rotation_.coeffs().data(), 4, &rotation_manifold_);
     problem_.AddParameterBlock(direction_.data(), 3, &sphere_);
@@ -86,6 +120,7 @@ class TwoViewProblem {
       if (terms.with_point[i]) add(&points_.emplace_back(terms.acs[i], terms.noise));
       if (terms.with_affine[i]) add(&affinities_.emplace_back(terms.acs[i], terms.noise));
     }
+    if (prior.sigma > 0.0) problem_.AddResidualBlock(&expected_, nullptr, direction_.data());
   }
 
   ceres::Solver::Summary solve(int max_iterations) {
@@ -117,6 +152,7 @@ class TwoViewProblem {
   }
 
   ceres::CauchyLoss loss_;
+  DirectionCost expected_;
   ceres::EigenQuaternionManifold rotation_manifold_;
   ceres::SphereManifold<3> sphere_;
   std::deque<PointCost> points_;  // a deque: elements stay where the problem points
@@ -127,9 +163,9 @@ class TwoViewProblem {
 };
 
 /// Solves from `start`, |t| = 1. Leaves result.pose alone unless the outcome is usable.
-void minimise(const TwoViewTerms& terms, const RelativePose& start, int max_iterations,
-              RefineResult& result) {
-  TwoViewProblem problem(terms, start);
+void minimise(const TwoViewTerms& terms, const RelativePose& start, const DirectionPrior& prior,
+              int max_iterations, RefineResult& result) {
+  TwoViewProblem problem(terms, start, prior);
   const ceres::Solver::Summary summary = problem.solve(max_iterations);
   const RelativePose refined = problem.pose();
   result.initial_cost = summary.initial_cost;
@@ -140,7 +176,7 @@ void minimise(const TwoViewTerms& terms, const RelativePose& start, int max_iter
   result.status = summary.termination_type == ceres::CONVERGENCE ? RefineStatus::kConverged
                                                                  : RefineStatus::kStopped;
   result.final_cost = summary.final_cost;
-  result.information = two_view_information(terms, refined);
+  result.information = two_view_information(terms, refined) + information_of(prior, refined.t);
   result.pose = refined;
 }
 
@@ -170,7 +206,8 @@ void RefineOptions::validate() const {
 
 RefineResult refine_two_view(const std::vector<AffineCorrespondence>& acs,
                              const std::vector<bool>& inliers, const RelativePose& start,
-                             double focal_px, const RefineOptions& options) {
+                             double focal_px, const RefineOptions& options,
+                             const DirectionPrior& prior) {
   options.validate();
   require(focal_px > 0.0 && std::isfinite(focal_px), "refine.focal_px", focal_px,
           "positive and finite");
@@ -199,7 +236,7 @@ RefineResult refine_two_view(const std::vector<AffineCorrespondence>& acs,
     result.status = RefineStatus::kNotFinite;
     return result;
   }
-  minimise(terms, unit, options.max_iterations, result);
+  minimise(terms, unit, prior, options.max_iterations, result);
   if (result.usable()) result.pose.t *= length;
   return result;
 }

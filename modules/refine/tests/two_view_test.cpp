@@ -177,6 +177,22 @@ TEST(RefineTwoView, SurvivesPureRotation) {
   EXPECT_TRUE(result.information.allFinite());
 }
 
+TEST(RefineTwoView, ADirectionThatIsExpectedCountsAsItsSigmaSays) {
+  SceneGenerator generator(17);
+  const auto scene = test::street(generator, 200, {0.2, 0.05});
+  const std::vector<bool> all(scene.acs.size(), true);
+  const Eigen::Vector3d aside =
+      (scene.truth.t.normalized() + Eigen::Vector3d(0.2, 0, 0)).normalized();
+  const auto off = [&](double sigma) {
+    const RefineResult result =
+        refine_two_view(scene.acs, all, scene.truth, kFocal, points_alone(), {aside, sigma});
+    EXPECT_TRUE(result.usable());
+    return direction_error(result.pose.t, aside);
+  };
+  EXPECT_LT(off(1e-4), 0.1 * kDegree);
+  EXPECT_GT(off(10.0), 4.0 * kDegree) << "the images know better";
+}
+
 TEST(RefineTwoView, GivesTheSameBitsEachTime) {
   SceneGenerator generator(21);
   const auto scene = test::street(generator, 45, {0.3, 0.05});

@@ -14,6 +14,9 @@ namespace {
 // [m] A sensor pose lower than this has its origin on the vehicle, not on the road: then the log
 // does not tell the camera's height.
 constexpr double kLowestMount = 0.5;
+// [-] Net way between two keyframes over the sum of its steps: less is no bend, but steps whose
+// directions contradict each other, and a net way that says nothing of their lengths.
+constexpr double kStraight = 0.7;
 // Steps between two checks of a map that the road's corners hold.
 constexpr int kCheckEvery = 5;
 
@@ -134,9 +137,12 @@ void Scale::remember(const StepInTime& step, const StepLength& length) {
   }
   const StepLength direct = by_itself(step);
   const bool own = length.metric && length.source != LengthSource::kMap;
-  const StepLength& told = direct.metric ? direct : length;
+  // Of a rest the noise is no way: it would add up.
+  const bool rests = length.metric && length.source == LengthSource::kStanding;
+  const StepLength& told = direct.metric && !rests ? direct : length;
   if (!direct.metric && !own) interval_.untold += told.length;
   interval_.way += told.length;
+  interval_.used += length.length;
   interval_.sigma_m += told.sigma_m;
 }
 
@@ -187,7 +193,7 @@ std::optional<ScaleMeasurement> Scale::by_road(const KeyframePair& pair, const L
 
 std::optional<ScaleMeasurement> Scale::by_interval(const KeyframePair& pair) const {
   const double in_map = pair.T_2_1.t.norm();
-  if (!interval_.is_told() || !(in_map > 0.0)) return std::nullopt;
+  if (!interval_.is_told() || !(in_map > kStraight * interval_.used)) return std::nullopt;
   return ScaleMeasurement{
       interval_.way / in_map, std::max(interval_.sigma(), 1e-3),
       metres_ == LengthSource::kStereo ? LengthSource::kStereo : LengthSource::kRoadImage, 0};

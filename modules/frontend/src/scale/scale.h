@@ -115,6 +115,7 @@ class Scale {
     double way = 0.0;      ///< [m]
     double sigma_m = 0.0;  ///< [m] the sum of those of its steps: their errors are alike
     double untold = 0.0;   ///< [m] of it that nobody told
+    double used = 0.0;     ///< as the steps were used
 
     /// Somebody told as good as all of it.
     [[nodiscard]] bool is_told() const { return way > 0.0 && untold <= kMostUntold * way; }

@@ -20,7 +20,7 @@ using Vector6 = Eigen::Matrix<double, 6, 1>;
 constexpr double kSurprising = 2.0;  // [σ] nearer to the course there is one basin
 // [rad] A direction farther from it is that of a car in reverse: t and −t
 // have the same cost.
-constexpr double kFarthest = 1.75;
+constexpr double kFarthest = 2.1;
 // −log of how seldom a car leaves its course at once: a kerb, a skid; one step in three thousand.
 constexpr double kMostSurprise = 8.0;
 
@@ -35,15 +35,14 @@ double angle_between(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
   return std::atan2(a.cross(b).norm(), a.dot(b));
 }
 
-std::optional<Basin> refined_from(const std::vector<AffineCorrespondence>& acs,
-                                  const RelativePose& start, double focal_px,
-                                  const RefineOptions& options, const Course& course) {
-  const std::vector<bool> all(acs.size(), true);
-  const RefineResult result = refine_two_view(acs, all, start, focal_px, options);
-  if (!result.usable()) return std::nullopt;
-  const double off = angle_between(result.pose.t, course.direction) / course.sigma;
-  return Basin{result.pose, covariance_beside(result.information, result.pose.t),
-               result.final_cost + std::min(0.5 * off * off, kMostSurprise)};
+double surprise(const Eigen::Vector3d& t, const Course& course) {
+  const double off = angle_between(t, course.direction) / course.sigma;
+  return std::min(0.5 * off * off, kMostSurprise);
+}
+
+Basin basin_of(const RefineResult& result, double surprise) {
+  return {result.pose, covariance_beside(result.information, result.pose.t),
+          result.final_cost + surprise};
 }
 
 /// From one pose to another, as covariances count it: (w, v).
@@ -57,45 +56,55 @@ Vector6 difference(const RelativePose& from, const RelativePose& to) {
   return d;
 }
 
-std::vector<bool> inliers_of(const std::vector<AffineCorrespondence>& acs, const RelativePose& pose,
+std::vector<bool> inliers_of(const std::vector<AffineCorrespondence>& acs,
+                             const std::vector<bool>& told, const RelativePose& pose,
                              double threshold) {
   const Eigen::Matrix3d E = essential_matrix(pose);
   std::vector<bool> inliers(acs.size());
   for (std::size_t i = 0; i < acs.size(); ++i) {
-    inliers[i] = std::abs(sampson_distance(E, acs[i].x1, acs[i].x2)) <= threshold;
+    inliers[i] = told[i] && std::abs(sampson_distance(E, acs[i].x1, acs[i].x2)) <= threshold;
   }
   return inliers;
 }
 
 TwoView moved_to(const Basin& basin, TwoView found, const std::vector<AffineCorrespondence>& acs,
-                 double threshold_px) {
+                 const std::vector<bool>& told, double threshold_px) {
   found.pose = basin.pose;
   found.covariance = basin.covariance;
-  found.inliers = inliers_of(acs, basin.pose, threshold_px / found.focal_px);
+  found.inliers = inliers_of(acs, told, basin.pose, threshold_px / found.focal_px);
   found.inlier_count =
       static_cast<std::size_t>(std::count(found.inliers.begin(), found.inliers.end(), true));
   return found;
 }
 
+/// The likelier of two, with the covariance of their mixture. @param there  on the course
+TwoView of_two(const Basin& here, const Basin& there, TwoView found,
+               const std::vector<AffineCorrespondence>& acs, const std::vector<bool>& told,
+               double threshold_px) {
+  const double for_course = 1.0 / (1.0 + std::exp(there.cost - here.cost));
+  const bool moves = for_course > 0.5;
+  if (moves) found = moved_to(there, std::move(found), acs, told, threshold_px);
+  const Vector6 d = difference(found.pose, moves ? here.pose : there.pose);
+  const double unlikelier = std::min(for_course, 1.0 - for_course);
+  if (!found.covariance.isZero(0.0)) found.covariance += unlikelier * d * d.transpose();
+  return found;
+}
+
 }  // namespace
 
-TwoView in_likelier_basin(TwoView found, const Course& course, const RefineOptions& refine,
-                          double threshold_px) {
+TwoView in_likelier_basin(TwoView found, const std::vector<bool>& told, const Course& course,
+                          const RefineOptions& refine, double threshold_px) {
   if (found.status != StepStatus::kOk || !(course.sigma > 0.0)) return found;
   const double off = angle_between(found.pose.t, course.direction);
   if (off < kSurprising * course.sigma || off > kFarthest) return found;
   const std::vector<AffineCorrespondence> acs = affine_parts(found.pair);
-  const auto here = refined_from(acs, found.pose, found.focal_px, refine, course);
-  const auto there =
-      refined_from(acs, {found.pose.R, course.direction}, found.focal_px, refine, course);
-  if (!here || !there) return found;
-  const double for_course = 1.0 / (1.0 + std::exp(there->cost - here->cost));
-  const bool moves = for_course > 0.5;
-  if (moves) found = moved_to(*there, std::move(found), acs, threshold_px);
-  const Vector6 d = difference(found.pose, moves ? here->pose : there->pose);
-  const double unlikelier = std::min(for_course, 1.0 - for_course);
-  if (!found.covariance.isZero(0.0)) found.covariance += unlikelier * d * d.transpose();
-  return found;
+  const RefineResult here = refine_two_view(acs, told, found.pose, found.focal_px, refine);
+  const RefineResult there =
+      refine_two_view(acs, told, {found.pose.R, course.direction}, found.focal_px, refine,
+                      {course.direction, course.sigma});
+  if (!here.usable() || !there.usable()) return found;
+  return of_two(basin_of(here, surprise(here.pose.t, course)), basin_of(there, 0.0),
+                std::move(found), acs, told, threshold_px);
 }
 
 }  // namespace oneac

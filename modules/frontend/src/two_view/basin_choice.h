@@ -13,8 +13,10 @@ namespace oneac {
 /// refined over all correspondences, and the posterior of the two decides, with costs as negative
 /// log-likelihoods and the course as prior. The covariance is that of the mixture, so that a choice
 /// which is not sure says so.
+/// @param told  those to go by, one per correspondence
 /// @param threshold_px  of the inliers of a pose that is changed
-[[nodiscard]] TwoView in_likelier_basin(TwoView found, const Course& course,
-                                        const RefineOptions& refine, double threshold_px);
+[[nodiscard]] TwoView in_likelier_basin(TwoView found, const std::vector<bool>& told,
+                                        const Course& course, const RefineOptions& refine,
+                                        double threshold_px);
 
 }  // namespace oneac

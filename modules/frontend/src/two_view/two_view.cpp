@@ -1,6 +1,7 @@
 #include "two_view.h"
 
 #include "basin_choice.h"
+#include "below_the_sky.h"
 #include "perspective_correction.h"
 
 #include "oneac/base/thread_clock.h"
@@ -8,6 +9,7 @@
 
 #include <Eigen/Cholesky>
 
+#include <algorithm>
 #include <utility>
 
 namespace oneac {
@@ -35,6 +37,35 @@ RelativePose with_unit_length(RelativePose motion) {
   return motion;
 }
 
+std::vector<AffineCorrespondence> those_of(std::vector<AffineCorrespondence> acs,
+                                           const std::vector<bool>& told) {
+  std::size_t kept = 0;
+  for (std::size_t i = 0; i < acs.size(); ++i) {
+    if (told[i]) acs[kept++] = acs[i];
+  }
+  acs.resize(kept);
+  return acs;
+}
+
+/// Flags of those that were told, with the others false.
+std::vector<bool> among_all(const std::vector<bool>& flags, const std::vector<bool>& told) {
+  std::vector<bool> all(told.size(), false);
+  std::size_t next = 0;
+  for (std::size_t i = 0; i < told.size(); ++i) {
+    if (told[i]) all[i] = flags[next++];
+  }
+  return all;
+}
+
+/// Whether any is left to go by; `told` then says which.
+bool take_the_sky_apart(const TrackedPair& pair, const TwoViewPrior& prior,
+                        std::vector<bool>& told) {
+  std::vector<bool> below = below_the_sky(pair, prior.R_level_cam);
+  if (below.empty()) return false;
+  told = std::move(below);
+  return true;
+}
+
 }  // namespace
 
 TwoViewEstimator::TwoViewEstimator(const FrontEndOptions& options,
@@ -48,8 +79,14 @@ TwoViewEstimator::TwoViewEstimator(const FrontEndOptions& options,
 
 TwoView TwoViewEstimator::estimate(TrackedPair pair, const TwoViewPrior& prior) const {
   if (pair.standing) return standing(std::move(pair), prior.focal_px);
+  std::vector<bool> told(pair.size(), true);
+  bool whole = !creeps(prior.motion) || !take_the_sky_apart(pair, prior, told);
   TwoView result;
-  InitialiserResult found = initialise(pair, prior, result.estimate_ms);
+  InitialiserResult found = initialise(pair, told, prior, result.estimate_ms);
+  if (whole && step_status(found.status) == StepStatus::kNoMotion) {
+    whole = !take_the_sky_apart(pair, prior, told);
+    if (!whole) found = initialise(pair, told, prior, result.estimate_ms);
+  }
   result.status = step_status(found.status);
   result.inlier_count = found.inlier_count;
   result.focal_px = prior.focal_px;
@@ -62,18 +99,24 @@ TwoView TwoViewEstimator::estimate(TrackedPair pair, const TwoViewPrior& prior) 
   result.covariance = found.covariance;
   result.motion = found.motion;
   result.inliers = std::move(found.inliers);
-  if (result.status != StepStatus::kOk) return result;
-  result = refined(std::move(result));
-  if (!refine_enabled_) return result;
-  return in_likelier_basin(std::move(result), prior.course, refine_, threshold_px_);
+  if (result.status == StepStatus::kOk) result = refined(std::move(result));
+  if (result.status == StepStatus::kOk && refine_enabled_) {
+    result = in_likelier_basin(std::move(result), told, prior.course, refine_, threshold_px_);
+  }
+  return whole ? result : with_the_sky(std::move(result), told, threshold_px_);
 }
 
-InitialiserResult TwoViewEstimator::initialise(const TrackedPair& pair, const TwoViewPrior& prior,
-                                               double& cpu_ms) const {
-  const std::vector<AffineCorrespondence> acs = affine_parts(pair);
+InitialiserResult TwoViewEstimator::initialise(const TrackedPair& pair,
+                                               const std::vector<bool>& told,
+                                               const TwoViewPrior& prior, double& cpu_ms) const {
+  const std::vector<AffineCorrespondence> acs = those_of(affine_parts(pair), told);
   const StageTimer timer(cpu_ms);
-  return initialiser_->estimate(
+  InitialiserResult found = initialiser_->estimate(
       {acs, prior.R_level_cam, prior.focal_px, seed_ + prior.number, prior.motion});
+  if (acs.size() < told.size() && found.inliers.size() == acs.size()) {
+    found.inliers = among_all(found.inliers, told);
+  }
+  return found;
 }
 
 TwoView TwoViewEstimator::refined(TwoView start) const {

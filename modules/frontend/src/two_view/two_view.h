@@ -53,8 +53,9 @@ class TwoViewEstimator {
   [[nodiscard]] TwoView estimate(TrackedPair pair, const TwoViewPrior& prior) const;
 
  private:
-  [[nodiscard]] InitialiserResult initialise(const TrackedPair& pair, const TwoViewPrior& prior,
-                                             double& cpu_ms) const;
+  /// @param told  those to go by
+  [[nodiscard]] InitialiserResult initialise(const TrackedPair& pair, const std::vector<bool>& told,
+                                             const TwoViewPrior& prior, double& cpu_ms) const;
   [[nodiscard]] TwoView refined(TwoView start) const;
 
   RelativePoseInitialiser::Ptr initialiser_;

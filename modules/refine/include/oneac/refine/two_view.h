@@ -77,6 +77,12 @@ struct RefineResult {
   }
 };
 
+/// A direction of translation that is expected beside what the images tell.
+struct DirectionPrior {
+  Eigen::Vector3d direction = Eigen::Vector3d::Zero();  ///< t̂ of T_2_1
+  double sigma = 0.0;                                   ///< [rad] 1σ; 0: nothing is expected
+};
+
 /// Two-view bundle adjustment over affine-consistent inliers, structure eliminated.
 ///
 /// Minimises, over the five degrees of freedom of (R, t/|t|), the Sampson distances of all inliers
@@ -91,6 +97,7 @@ struct RefineResult {
 /// @param acs      normalised correspondences
 /// @param inliers  one flag per correspondence
 /// @param start    X2 = R X1 + t; the length of t is kept, whether metric or one
+/// @param prior    adds ½ |t̂ − direction|² / σ² to the cost and its curvature to the information
 /// @param focal_px turns point_noise_px into normalised units
 /// @throws std::invalid_argument on invalid options, focal_px ≤ 0 or flags of another number
 /// @cost   1 to 2 ms for 600 inliers, twice that with affinities; one thread,
@@ -98,6 +105,7 @@ struct RefineResult {
 [[nodiscard]] RefineResult refine_two_view(const std::vector<AffineCorrespondence>& acs,
                                            const std::vector<bool>& inliers,
                                            const RelativePose& start, double focal_px,
-                                           const RefineOptions& options);
+                                           const RefineOptions& options,
+                                           const DirectionPrior& prior = {});
 
 }  // namespace oneac
