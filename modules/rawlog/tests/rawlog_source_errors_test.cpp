@@ -7,6 +7,8 @@
 
 #include <opencv2/imgcodecs.hpp>
 
+#include <cmath>
+
 namespace oneac {
 namespace {
 
@@ -96,11 +98,12 @@ TEST_F(SourceErrors, LogWithoutCalibration) {
   expect_fault({"record 0", "CAM", "no calibration", "--calibration"});
 }
 
-TEST_F(SourceErrors, FisheyeLens) {
+TEST_F(SourceErrors, LensThatNoModelDescribes) {
   auto image = test::stored_image("CAM", 0, ramp(0));
-  image->cameraParams.setDistortionKannalaBrandt(0.1, 0, 0, 0);
+  image->cameraParams.distortion = mrpt::img::DistortionModel::kannala_brandt;
+  image->cameraParams.dist = {0.1, 0, 1, 1, 1, 1, 0, 0};
   test::write_log(options_.log, {image});
-  expect_fault({"lens model", "--calibration"});
+  expect_fault({"fisheye lens has more than four terms", "--calibration"});
 }
 
 TEST_F(SourceErrors, CalibrationThatChangesWithinTheLog) {
@@ -115,6 +118,13 @@ TEST_F(SourceErrors, ImageWithoutTimeStamp) {
   image->timestamp = INVALID_TIMESTAMP;
   test::write_log(options_.log, {image});
   expect_fault({"record 0", "time stamp"});
+}
+
+TEST_F(SourceErrors, ViewThatNoPinholeImageHas) {
+  for (const double fov : {5.0, 170.0, -90.0, std::nan("")}) {
+    options_.undistorted_fov_deg = fov;
+    expect_fault({"--undistorted-fov", "from 10 to 150"});
+  }
 }
 
 TEST_F(SourceErrors, OptionsOutOfBounds) {

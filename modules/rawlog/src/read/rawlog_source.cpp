@@ -8,6 +8,7 @@
 #include "read/reference_collector.h"
 
 #include "oneac/base/error.h"
+#include "oneac/base/number_text.h"
 #include "oneac/base/thread_clock.h"
 #include "oneac/mrpt_compat/observations.h"
 #include "oneac/observations/camera_reader.h"
@@ -39,6 +40,12 @@ struct Sight {
 
 void SourceOptions::validate() const {
   if (every < 1) throw InputError("--every 0", "it must be at least 1", "use 1 for every image");
+  const bool chosen = undistorted_fov_deg == 0.0;
+  if (!chosen && !(undistorted_fov_deg >= 10.0 && undistorted_fov_deg <= 150.0)) {
+    throw InputError("--undistorted-fov " + exact_text(undistorted_fov_deg),
+                     "no pinhole image of a road has this field of view",
+                     "give degrees across the image, from 10 to 150, or 0 to keep the road");
+  }
   static_cast<void>(mount_from_sensor_pose(Eigen::Isometry3d::Identity(), mount_convention));
 }
 
@@ -90,6 +97,7 @@ CameraReaderOptions RawlogSource::Impl::reader_options() const {
   options.mount_convention = options_.mount_convention;
   options.stereo = options_.stereo;
   options.mount = options_.mount;
+  options.undistorted_fov_deg = options_.undistorted_fov_deg;
   if (!options_.calibration.empty()) {
     options.calibration = load_calibration(options_.calibration, chosen_.side_name);
   }
@@ -202,6 +210,7 @@ void RawlogSource::Impl::finish() {
 
 void RawlogSource::Impl::complete_report() {
   if (reader_.damage()) report_.damage = reader_.damage()->what();
+  report_.calibration_scaled = camera_.scaling_note();
   report_.names_out_of_order = names_.fault();
   report_.reference = collector_.build();
 }
