@@ -1,0 +1,49 @@
+#include "import/image_drive.h"
+#include "import/import_images.h"
+#include "import/stamps.h"
+
+#include "oneac/base/error.h"
+
+namespace oneac {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::vector<double> times_of(const DriveImport& options, const std::vector<fs::path>& images,
+                             ImportReport& report) {
+  if (options.fps) return stamps_of_fps(*options.fps, images.size());
+  const fs::path table = options.source / "times.txt";
+  if (fs::exists(table)) return stamps_from_table(table, images, report);
+  std::vector<double> times = stamps_from_names(images);
+  if (times.empty()) {
+    throw InputError(options.source.string(),
+                     "nothing tells when its images were taken: there is no times.txt, and their "
+                     "names hold no times since 1970 in s, ms, us or ns that increase",
+                     "give their rate with --fps, or a times.txt with a row per image");
+  }
+  report.notes.emplace_back("the images are stamped with the times in their names");
+  return times;
+}
+
+}  // namespace
+
+ImportReport import_image_folder(const DriveImport& options) {
+  require_source_folder(options.source);
+  ImportReport report;
+  report.log = options.log;
+  ImageDrive drive;
+  drive.label = "camera";
+  drive.images = list_images(options.source);
+  if (drive.images.empty()) {
+    throw InputError(options.source.string(), "no images in it", "give the folder of the images");
+  }
+  drive.camera = given_calibration(options, drive.images.front(), report);
+  drive.T_vehicle_cam = mount_at(options.mount, height_above_road(options, report));
+  drive.convention = options.convention;
+  note_order(drive.images, report);
+  drive.times_s = times_of(options, drive.images, report);
+  write_drive(drive, options.log, options.copy_images, report);
+  return report;
+}
+
+}  // namespace oneac
