@@ -128,7 +128,7 @@ TEST_F(ImportImages, StampsByTheTimesInTheirNames) {
 }
 
 TEST_F(ImportImages, StampsByATableBesideThem) {
-  make_images({"left.png", "right.png"});
+  make_images({"first.png", "second.png"});
   write_text(options_.source / "times.txt", "1403636579763\n1403636579813\n");
   EXPECT_TRUE(notes(import_image_folder(options_), "milliseconds"));
   expect_times({1403636579.763, 1403636579.813});
@@ -149,6 +149,13 @@ TEST_F(ImportImages, RefusesWhatHasNoTimesCalibrationOrImages) {
   options_.calibration.clear();
   EXPECT_NE(said().find("give it with --calibration"), std::string::npos) << said();
   EXPECT_FALSE(fs::exists(options_.log));
+}
+
+TEST_F(ImportImages, RefusesTwoCamerasInOneFolder) {
+  make_images({"img_1_left.png", "img_1_Right.png"});
+  options_.fps = 10.0;
+  EXPECT_NE(complaint_of([&] { import_image_folder(options_); }).find("two cameras"),
+            std::string::npos);
 }
 
 class ImportEuroc : public ImportDrive {
@@ -454,7 +461,9 @@ TEST_F(ImportVideo, RefusesWhatIsNoVideoOrNoPart) {
   options_.source = folder_.path() / "none.mp4";
   EXPECT_NE(said().find("no such file"), std::string::npos) << said();
   write_text(options_.source, "this is no video");
+  ::testing::internal::CaptureStderr();
   EXPECT_NE(said().find("it is no video"), std::string::npos) << said();
+  EXPECT_EQ(::testing::internal::GetCapturedStderr(), "");  // FFmpeg keeps its words to itself
   make_video();
   options_.from_s = 5.0;
   EXPECT_NE(said().find("0 frames between"), std::string::npos) << said();

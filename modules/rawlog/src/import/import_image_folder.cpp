@@ -4,6 +4,9 @@
 
 #include "oneac/base/error.h"
 
+#include <algorithm>
+#include <cctype>
+
 namespace oneac {
 namespace {
 
@@ -25,6 +28,24 @@ std::vector<double> times_of(const DriveImport& options, const std::vector<fs::p
   return times;
 }
 
+bool names_say(const fs::path& image, const char* side) {
+  std::string name = image.stem().string();
+  std::transform(name.begin(), name.end(), name.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return name.find(side) != std::string::npos;
+}
+
+/// Left and right images by turns would be a camera that jumps to and fro.
+void require_one_camera(const std::vector<fs::path>& images, const fs::path& source) {
+  const auto any = [&](const char* side) {
+    return std::any_of(images.begin(), images.end(),
+                       [&](const fs::path& image) { return names_say(image, side); });
+  };
+  if (!any("left") || !any("right")) return;
+  throw InputError(source.string(), "its images are those of two cameras, left and right",
+                   "move those of one of them to another folder, or use `oneac import malaga`");
+}
+
 }  // namespace
 
 ImportReport import_image_folder(const DriveImport& options) {
@@ -37,6 +58,7 @@ ImportReport import_image_folder(const DriveImport& options) {
   if (drive.images.empty()) {
     throw InputError(options.source.string(), "no images in it", "give the folder of the images");
   }
+  require_one_camera(drive.images, options.source);
   drive.camera = given_calibration(options, drive.images.front(), report);
   drive.T_vehicle_cam = mount_at(options.mount, height_above_road(options, report));
   drive.convention = options.convention;

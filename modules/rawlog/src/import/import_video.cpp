@@ -7,10 +7,13 @@
 #include "oneac/base/error.h"
 #include "oneac/base/number_text.h"
 
+#include <dlfcn.h>
+
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/videoio.hpp>
 
 #include <cmath>
+#include <cstdarg>
 #include <utility>
 
 namespace oneac {
@@ -19,6 +22,32 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr double kMillisecond = 1e-3;
+
+/// FFmpeg prints what it thinks of a file; here what is wrong is said once, by an exception. OpenCV
+/// has no switch for it and sets FFmpeg's level at each opening, but not its callback.
+class SilentFfmpeg {
+ public:
+  SilentFfmpeg() {
+    set_callback([](void*, int, const char*, va_list) {});
+  }
+  ~SilentFfmpeg() {
+    if (void* usual = ::dlsym(RTLD_DEFAULT, "av_log_default_callback")) {
+      set_callback(reinterpret_cast<Callback>(usual));
+    }
+  }
+  SilentFfmpeg(const SilentFfmpeg&) = delete;
+  SilentFfmpeg& operator=(const SilentFfmpeg&) = delete;
+
+ private:
+  using Callback = void (*)(void*, int, const char*, va_list);
+
+  static void set_callback(Callback callback) {
+    using Setter = void (*)(Callback);
+    if (void* setter = ::dlsym(RTLD_DEFAULT, "av_log_set_callback")) {
+      reinterpret_cast<Setter>(setter)(callback);
+    }
+  }
+};
 
 /// A video's frames, one at a time.
 class Video {
@@ -47,6 +76,7 @@ class Video {
 
  private:
   fs::path file_;
+  SilentFfmpeg silent_;
   cv::VideoCapture capture_;
 };
 

@@ -204,9 +204,10 @@ std::optional<double> date_stamp(const std::string& text) {
     at = result.ptr;
   }
   if (at != end && *at == 'Z') ++at;
-  const bool sound = at == end && fields[0] >= 1970 && fields[1] >= 1 && fields[1] <= 12 &&
-                     fields[2] >= 1 && fields[2] <= 31 && fields[3] >= 0 && fields[3] < 24 &&
-                     fields[4] >= 0 && fields[4] < 60 && fields[5] >= 0 && fields[5] <= 60;
+  const bool sound = at == end && fields[0] >= 1970 && fields[0] <= 2100 && fields[1] >= 1 &&
+                     fields[1] <= 12 && fields[2] >= 1 && fields[2] <= 31 && fields[3] >= 0 &&
+                     fields[3] < 24 && fields[4] >= 0 && fields[4] < 60 && fields[5] >= 0 &&
+                     fields[5] <= 60;
   if (!sound) return std::nullopt;
   std::tm calendar{};
   calendar.tm_year = fields[0] - 1900;
