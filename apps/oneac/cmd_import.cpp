@@ -10,6 +10,7 @@
 #include <iostream>
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -47,14 +48,17 @@ std::vector<CLI::Option*> add_mount(CLI::App& verb, MountAngles& mount,
 constexpr const char* kCalibration =
     "FILE[:SECTION] of MRPT, KITTI, OpenCV, ROS, Kalibr, COLMAP or ORB-SLAM";
 
+void add_rate(CLI::App& verb, std::optional<double>& fps) {
+  verb.add_option("--fps", fps, "Images per second, instead of the source's own times, 0.5 to 250");
+}
+
 void add_drive(CLI::App& verb, DriveImport& options, const std::string& source) {
   verb.add_option("SRC", options.source, source)->required();
   verb.add_option("-o,--output", options.log, "Rawlog to write")->required();
   verb.add_option("--calibration", options.calibration, kCalibration);
   verb.add_option("--camera-height", options.camera_height_m,
                   "Of the lens above the road [m], 0.3 to 5");
-  verb.add_option("--fps", options.fps,
-                  "Images per second, instead of the source's own times, 0.5 to 250");
+  add_rate(verb, options.fps);
   add_mount(verb, options.mount, options.convention);
 }
 
@@ -96,6 +100,7 @@ DriveImport drive_of(const KittiImport& options) {
   drive.camera_height_m = options.camera_height_m;
   drive.mount = options.mount;
   drive.convention = options.convention;
+  drive.fps = options.fps;
   return drive;
 }
 
@@ -117,6 +122,7 @@ void add_kitti(CLI::App& import) {
   verb->add_option("--camera-height", options->camera_height_m,
                    "Of the lens above the road [m], 0.3 to 5; without it 1.65 where focal length "
                    "and size of the images are KITTI's, else the log has none");
+  add_rate(*verb, options->fps);
   add_mount(*verb, options->mount, options->convention);
   verb->callback([options] {
     const bool raw = is_kitti_raw(options->source);

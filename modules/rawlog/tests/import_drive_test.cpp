@@ -320,6 +320,13 @@ TEST_F(ImportKittiStereo, TakesTheBaselineBetweenTheProjections) {
   EXPECT_EQ(test::names_in(folder_.path() / "out" / "drive_Images").size(), 4U);
 }
 
+TEST_F(ImportKittiStereo, StampsAtTheGivenRate) {
+  make_sequence("");
+  kitti_.fps = 20.0;
+  import_kitti(kitti_);
+  EXPECT_NEAR(times().at(1) - times().at(0), 0.05, 1e-6);
+}
+
 TEST_F(ImportKittiStereo, LeavesRightImagesOutWhereNoBaselineIs) {
   make_sequence("P1: 50 0 32 -26850 0 50 24 0 0 0 1 0\n");  // mm
   EXPECT_TRUE(notes(import_kitti(kitti_), "P1 is 537 m to the right of P0"));

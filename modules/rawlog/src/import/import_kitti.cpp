@@ -161,7 +161,8 @@ ImportReport import_kitti(const KittiImport& options) {
   drive.T_vehicle_cam = mount_at(options.mount, height_of(options, drive.camera, report));
   drive.convention = options.convention;
   note_order(sequence.images, report);
-  drive.times_s = find_times(options.source, sequence, report);
+  drive.times_s = options.fps ? stamps_of_fps(*options.fps, sequence.images.size())
+                              : find_times(options.source, sequence, report);
   if (options.calibration.empty()) drive.right = find_right(options.source, sequence, report);
   require_writable_folder(options.log.has_parent_path() ? options.log.parent_path() : ".");
   copy_poses(options.source, sequence, report);  // poses that are none leave no log

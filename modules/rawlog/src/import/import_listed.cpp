@@ -108,8 +108,7 @@ ImportReport import_tum(const DriveImport& options) {
   ImportReport report;
   const Listed listed = existing(read_list(list, options.source), list, report);
   if (fs::exists(options.source / "groundtruth.txt")) {
-    report.notes.emplace_back(
-        "groundtruth.txt is for `oneac eval`: it is not of the camera's rows");
+    report.notes.emplace_back("groundtruth.txt is left out: give it to `oneac eval`");
   }
   return import_listed(options, listed, "rgb", std::move(report));
 }

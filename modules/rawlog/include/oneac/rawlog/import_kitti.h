@@ -15,6 +15,7 @@ struct KittiImport {
       source;                 ///< holds image_0, image_l, image_2 or images (png, jpg), calib.txt
   std::filesystem::path log;  ///< rawlog to write
   std::string calibration;    ///< FILE[:SECTION] instead of calib.txt; then no right images
+  std::optional<double> fps;  ///< stamps at this rate instead of times.txt [1/s]
   bool copy_images = false;   ///< copy to <log base>_Images instead of referring to them
   std::optional<double> camera_height_m;  ///< above the road [m]; none: 1.65 m where the folder is
                                           ///< KITTI's, else the log tells no height
