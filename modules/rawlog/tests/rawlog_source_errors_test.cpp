@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include <opencv2/imgcodecs.hpp>
+#include <opencv2/imgproc.hpp>
 
 #include <cmath>
 
@@ -118,6 +119,20 @@ TEST_F(SourceErrors, ImageWithoutTimeStamp) {
   image->timestamp = INVALID_TIMESTAMP;
   test::write_log(options_.log, {image});
   expect_fault({"record 0", "time stamp"});
+}
+
+TEST_F(SourceErrors, TheFirstImageDecidesOnTheSizeWhicheverIsLoadedFirst) {
+  cv::Mat small;
+  cv::resize(ramp(0), small, cv::Size(32, 24));
+  test::write_log(options_.log,
+                  {test::stored_image("CAM", 0, ramp(0)), test::stored_image("CAM", 1, small)});
+  test::write_bytes(folder_.path() / "cameras.txt", "1 PINHOLE 128 96 100 100 64 48\n");
+  options_.calibration = (folder_.path() / "cameras.txt").string();
+  RawlogSource source(options_);
+  const auto first = source.next(), second = source.next();
+  const std::string said = test::input_error([&] { static_cast<void>(source.load(*second)); });
+  EXPECT_NE(said.find("size of the images changes"), std::string::npos) << said;
+  EXPECT_DOUBLE_EQ(source.load(*first).camera.fx, 50.0);
 }
 
 TEST_F(SourceErrors, ViewThatNoPinholeImageHas) {

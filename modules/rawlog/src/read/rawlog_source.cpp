@@ -65,6 +65,7 @@ class RawlogSource::Impl {
   [[nodiscard]] bool is_selected(std::size_t index) const;
   [[nodiscard]] std::optional<FrameTicket> ticket_of(const Sight& sight,
                                                      const RawlogRecord& record);
+  void settle_size(const StoredImage& first, const std::string& ticket_name);
   void add_right(const LogView& right, std::size_t record, Payload& payload);
   [[nodiscard]] GreyImage decoded(const StoredImage& image, const std::string& ticket_name) const;
   [[nodiscard]] std::string where(std::size_t record) const;
@@ -81,6 +82,7 @@ class RawlogSource::Impl {
   SourceReport report_;
   std::size_t delivered_ = 0;
   std::optional<double> last_time_;
+  bool size_settled_ = false;
 };
 
 RawlogSource::Impl::Impl(const SourceOptions& options)
@@ -170,7 +172,20 @@ std::optional<FrameTicket> RawlogSource::Impl::ticket_of(const Sight& sight,
   ticket.time_s = CameraReader::time_of(record.observation->timestamp, where(record.number));
   payload->T_vehicle_cam = camera_.mount(view);
   ticket.payload = std::move(payload);
+  if (!size_settled_)
+    settle_size(std::static_pointer_cast<const Payload>(ticket.payload)->image, ticket.name);
   return ticket;
+}
+
+// Where the calibration leaves the size of the images open, the first one decides on it, whichever
+// is loaded first by the threads that share the work.
+void RawlogSource::Impl::settle_size(const StoredImage& first, const std::string& ticket_name) {
+  size_settled_ = true;
+  if (options_.calibration.empty() && chosen_.calibration.ncols != 0) return;
+  try {
+    static_cast<void>(decoded(first, ticket_name));
+  } catch (const InputError&) {  // load() says it
+  }
 }
 
 GreyImage RawlogSource::Impl::decoded(const StoredImage& image,
