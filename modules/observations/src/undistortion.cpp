@@ -1,6 +1,7 @@
 #include "undistortion.h"
 
 #include "oneac/base/error.h"
+#include "oneac/geometry/lens.h"
 
 #include <opencv2/calib3d.hpp>
 #include <opencv2/imgproc.hpp>
@@ -38,17 +39,7 @@ cv::Mat coefficients(const PinholeCamera& camera) {
 
 /// Where the lens puts the direction (0, y, 1) [px], from the optical axis downwards.
 double pixels_below(const PinholeCamera& camera, double y) {
-  std::vector<cv::Point2d> image;
-  const cv::Vec3d none(0, 0, 0);
-  const cv::Matx33d K = matrix_of(camera);
-  if (is_fisheye(camera)) {
-    const std::vector<cv::Point3d> point{{0, y, 1}};
-    cv::fisheye::projectPoints(point, image, none, none, K, coefficients(camera));
-  } else {
-    const std::vector<cv::Point3d> point{{0, y, 1}};
-    cv::projectPoints(point, none, none, K, coefficients(camera), image);
-  }
-  return image.front().y - camera.cy;
+  return camera.fy * distorted(camera, {0.0, y}).y();
 }
 
 /// Slope y of the direction (0, y, 1) that the middle of the lower edge sees; empty when it looks
