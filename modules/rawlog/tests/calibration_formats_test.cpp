@@ -175,6 +175,11 @@ TEST_F(CalibrationFormats, KalibrCamchain) {
   EXPECT_NE(said(radtan + ":cam1").find("the camera model 'omni' is not supported"),
             std::string::npos);
   EXPECT_NE(said(radtan).find("cam0, cam1"), std::string::npos);
+  EXPECT_NE(fault("unsaid.yaml",
+                  "cam0:\n  camera_model: pinhole\n  intrinsics: [458, 457, 367, 248]\n"
+                  "  distortion_coeffs: [-0.28, 0.07, 0, 0]\n  resolution: [752, 480]\n")
+                .find("distortion_model is missing"),
+            std::string::npos);
 }
 
 TEST_F(CalibrationFormats, EurocSensor) {

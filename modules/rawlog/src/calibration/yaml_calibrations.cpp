@@ -140,8 +140,13 @@ PinholeCamera read_kalibr(const Reader& reader, const std::string& prefix) {
   set_size(reader.numbers(prefix + "resolution"), prefix + "resolution", reader.place, camera);
   const std::string lens =
       first_of(document, {prefix + "distortion_coeffs", prefix + "distortion_coefficients"});
+  const std::vector<double> coefficients = reader.numbers(lens);
   const std::string named = document.word(prefix + "distortion_model");
-  set_lens(named.empty() ? "none" : named, reader.numbers(lens), reader.place, camera);
+  if (named.empty() && !coefficients.empty()) {
+    reader.place.fail("distortion_model is missing, which says what the coefficients mean",
+                      "give radtan, equidistant or none");
+  }
+  set_lens(named.empty() ? "none" : named, coefficients, reader.place, camera);
   return camera;
 }
 

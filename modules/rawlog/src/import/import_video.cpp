@@ -55,7 +55,9 @@ class Video {
   explicit Video(const fs::path& file) : file_(file) {
     std::error_code ignored;
     if (!fs::is_regular_file(file, ignored)) {
-      throw InputError(file.string(), "no such file", "give the file of a video");
+      const bool folder = fs::is_directory(file, ignored);
+      throw InputError(file.string(), folder ? "is a folder" : "no such file",
+                       "give the file of a video");
     }
     // Only what is in the file: a name like "img_%04d.png" is no list of images here.
     if (!capture_.open(file.string(), cv::CAP_FFMPEG)) {
