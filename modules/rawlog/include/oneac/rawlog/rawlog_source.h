@@ -24,7 +24,7 @@ struct SourceOptions {
   std::size_t first = 0;                  ///< first image of the camera to use
   std::size_t count = 0;                  ///< images to use at most; 0: all
   std::size_t every = 1;                  ///< use every K-th image from `first` on; ≥ 1
-  bool stereo = false;  ///< load the right image beside the left one, where it exists
+  bool stereo = false;               ///< load the right image beside the left one, where it exists
   double undistorted_fov_deg = 0.0;  ///< across undistorted images [deg]; 0: the road is kept
 
   /// @throws InputError naming flag, value and bound
