@@ -18,5 +18,5 @@ set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
 # Needed by find_package(oneac), not by the program.
 string(JOIN ", " CPACK_DEBIAN_PACKAGE_SUGGESTS
   g++ cmake libeigen3-dev libopencv-dev libceres-dev libvlfeat-dev libmrpt-obs-dev
-  libmrpt-topography-dev libyaml-cpp-dev zlib1g-dev libzstd-dev)
+  libmrpt-topography-dev libyaml-cpp-dev libexpat1-dev zlib1g-dev libzstd-dev)
 include(CPack)

@@ -1,5 +1,6 @@
 #include "commands.h"
 
+#include "oneac/rawlog/import_drive.h"
 #include "oneac/rawlog/import_kitti.h"
 #include "oneac/rawlog/import_malaga.h"
 
@@ -9,6 +10,7 @@
 #include <iostream>
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -43,21 +45,89 @@ std::vector<CLI::Option*> add_mount(CLI::App& verb, MountAngles& mount,
           verb.add_option("--mount-yaw", mount.yaw_left_deg, "Looks to the left [deg]: 180 rear")};
 }
 
+constexpr const char* kCalibration =
+    "FILE[:SECTION] of MRPT, KITTI, OpenCV, ROS, Kalibr, COLMAP or ORB-SLAM";
+
+void add_rate(CLI::App& verb, std::optional<double>& fps) {
+  verb.add_option("--fps", fps, "Images per second, instead of the source's own times, 0.5 to 250");
+}
+
+void add_drive(CLI::App& verb, DriveImport& options, const std::string& source) {
+  verb.add_option("SRC", options.source, source)->required();
+  verb.add_option("-o,--output", options.log, "Rawlog to write")->required();
+  verb.add_option("--calibration", options.calibration, kCalibration);
+  verb.add_option("--camera-height", options.camera_height_m,
+                  "Of the lens above the road [m], 0.3 to 5");
+  add_rate(verb, options.fps);
+  add_mount(verb, options.mount, options.convention);
+}
+
+using Importer = ImportReport (*)(const DriveImport&);
+
+void add_folder(CLI::App& import, const char* name, const char* what, const char* source,
+                Importer importer) {
+  auto* verb = import.add_subcommand(name, what);
+  const auto options = std::make_shared<DriveImport>();
+  add_drive(*verb, *options, source);
+  verb->add_flag("--copy-images", options->copy_images,
+                 "Copy the images to <log>_Images instead of referring to them");
+  verb->callback([options, importer] { print(importer(*options)); });
+}
+
+void add_video(CLI::App& import) {
+  auto* verb = import.add_subcommand("video", "A video, whose frames are decoded to <log>_Images");
+  const auto options = std::make_shared<VideoImport>();
+  add_drive(*verb, *options, "File that FFmpeg reads: MP4, MKV, AVI, MOV ...");
+  verb->add_option("--from", options->from_s, "Seconds of the video that are left out");
+  verb->add_option("--to", options->to_s, "Second of the video at which to stop");
+  verb->add_option("--nmea", options->nmea, "GPS of the drive: a file of NMEA sentences");
+  verb->add_option("--gpx", options->gpx, "GPS of the drive: a GPX track");
+  verb->add_option("--csv", options->csv,
+                   "GPS of the drive: a table with columns time, lat, lon (ele, speed_mps, "
+                   "speed_kmh or speed_knots, course)");
+  verb->add_option("--start", options->start,
+                   "When the video begins: seconds since 1970, or UTC as 2024-05-01T10:00:00Z; "
+                   "without it with the first fix of the GPS");
+  verb->callback([options] { print(import_video(*options)); });
+}
+
+DriveImport drive_of(const KittiImport& options) {
+  DriveImport drive;
+  drive.source = options.source;
+  drive.log = options.log;
+  drive.copy_images = options.copy_images;
+  drive.calibration = options.calibration;
+  drive.camera_height_m = options.camera_height_m;
+  drive.mount = options.mount;
+  drive.convention = options.convention;
+  drive.fps = options.fps;
+  return drive;
+}
+
 void add_kitti(CLI::App& import) {
-  auto* verb = import.add_subcommand("kitti", "KITTI odometry sequence, or a folder in its layout");
+  auto* verb = import.add_subcommand(
+      "kitti", "KITTI odometry sequence, a drive of its raw data, or a folder in either layout");
   const auto options = std::make_shared<KittiImport>();
   verb->add_option("SRC", options->source,
                    "Folder with image_0, image_l, image_2 or images (png, jpg) and calib.txt; "
-                   "times.txt and poses.txt when present")
+                   "image_1 or image_3, times.txt and poses.txt when present. Raw data: "
+                   "image_00/data, image_00/timestamps.txt, oxts, calib_cam_to_cam.txt beside or "
+                   "above")
       ->required();
   verb->add_option("-o,--output", options->log, "Rawlog to write")->required();
+  verb->add_option("--calibration", options->calibration,
+                   std::string(kCalibration) + ", instead of the sequence's own");
   verb->add_flag("--copy-images", options->copy_images,
                  "Copy the images to <log>_Images instead of referring to them");
   verb->add_option("--camera-height", options->camera_height_m,
                    "Of the lens above the road [m], 0.3 to 5; without it 1.65 where focal length "
                    "and size of the images are KITTI's, else the log has none");
+  add_rate(*verb, options->fps);
   add_mount(*verb, options->mount, options->convention);
-  verb->callback([options] { print(import_kitti(*options)); });
+  verb->callback([options] {
+    const bool raw = is_kitti_raw(options->source);
+    print(raw ? import_kitti_raw(drive_of(*options)) : import_kitti(*options));
+  });
 }
 
 void add_malaga(CLI::App& import) {
@@ -83,10 +153,20 @@ void add_malaga(CLI::App& import) {
 }  // namespace
 
 void add_import(CLI::App& program) {
-  auto* verb = program.add_subcommand("import", "Image folders and text files to a native rawlog");
+  auto* verb =
+      program.add_subcommand("import", "Image folders, videos and text files to a native rawlog");
   verb->require_subcommand(1);
   add_kitti(*verb);
   add_malaga(*verb);
+  add_folder(*verb, "images", "Images of any names in a folder",
+             "Folder with the images; times.txt when present, else times in their names or --fps",
+             import_image_folder);
+  add_video(*verb);
+  add_folder(*verb, "euroc", "EuRoC sequence",
+             "Folder with mav0, or mav0 itself: cam0/data.csv, "
+             "cam0/data, cam0/sensor.yaml",
+             import_euroc);
+  add_folder(*verb, "tum", "TUM RGB-D sequence", "Folder with rgb.txt and rgb", import_tum);
 }
 
 }  // namespace oneac::app

@@ -1,4 +1,4 @@
-// Calibration files of the three kinds, with and without a section.
+// Calibration files of every kind, with and without a section.
 #include "oneac/rawlog/calibration.h"
 
 #include "fuzz.h"

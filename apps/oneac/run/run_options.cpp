@@ -14,6 +14,8 @@ void describe(Visitor&& visit, SourceParameters& o) {
   visit("camera", o.camera, "name", "left, right or a sensor label; empty: the only one");
   visit("images_dir", o.images_dir, "path", "external images; empty: searched beside the log");
   visit("calibration", o.calibration, "path", "FILE[:SECTION] that replaces the log's");
+  visit("undistorted_fov_deg", o.undistorted_fov_deg, "deg",
+        "across undistorted images; 0: chosen to keep the road");
   visit("mount_convention", o.mount_convention, "name", "auto, optical or x_forward sensor poses");
   visit("mount_roll_deg", o.mount_roll_deg, "deg",
         "camera's roll, to the right: 180 upside down, 90 portrait");
@@ -85,6 +87,7 @@ SourceOptions SourceParameters::for_log(const std::string& log) const {
   options.images_dir = images_dir;
   options.camera = camera;
   options.calibration = calibration;
+  options.undistorted_fov_deg = undistorted_fov_deg;
   options.mount_convention = mount_convention;
   options.mount = mount();
   options.first = first;

@@ -16,6 +16,7 @@ struct SourceParameters {
   std::string camera;
   std::string images_dir;
   std::string calibration;
+  double undistorted_fov_deg = 0.0;
   std::string mount_convention = "auto";
   std::string mount_roll_deg, mount_pitch_deg, mount_yaw_deg;  ///< numbers, or empty
   std::size_t first = 0;

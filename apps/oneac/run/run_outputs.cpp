@@ -167,6 +167,7 @@ std::vector<std::string> notes_about(const DriveRecord& record) {
                     " images do not lie after the one before in time and were left out");
   }
   if (const std::string gps = gps_beside_images(record); !gps.empty()) notes.push_back(gps);
+  if (!source.calibration_scaled.empty()) notes.push_back(source.calibration_scaled);
   notes.insert(notes.end(), record.setup_faults.begin(), record.setup_faults.end());
   if (record.car_mask_refused) {
     notes.push_back(

@@ -14,8 +14,13 @@ void add_selection(CLI::App& verb, std::vector<std::string>& settings) {
           "klt, vlfeat, vlfeat+align or sift");
   add_key(verb, "--images-dir", "source.images_dir", settings, "folder of the external images");
   add_key(verb, "--camera", "source.camera", settings, "left, right or a sensor label");
-  add_key(verb, "--calibration", "source.calibration", settings,
-          "FILE[:SECTION] instead of the log's");
+  add_key(
+      verb, "--calibration", "source.calibration", settings,
+      "FILE[:SECTION] instead of the log's: MRPT, KITTI, OpenCV, ROS, Kalibr, COLMAP, ORB-SLAM");
+  add_key(
+      verb, "--undistorted-fov", "source.undistorted_fov_deg", settings,
+      "degrees across the undistorted images of a camera with distortion; 0: chosen to keep the "
+      "road");
   add_key(verb, "--mount-convention", "source.mount_convention", settings,
           "axes of the log's sensor poses: auto, optical or x_forward");
   add_key(verb, "--mount-roll", "source.mount_roll_deg", settings,

@@ -62,6 +62,9 @@ Json to_json(const CompareSettings& settings) {
   json["images_dir"] = settings.source.images_dir.string();
   json["camera"] = settings.source.camera;
   json["calibration"] = settings.source.calibration;
+  if (const double fov = settings.source.undistorted_fov_deg; fov != 0.0) {
+    json["undistorted_fov_deg"] = fov;
+  }
   json["mount_convention"] = settings.source.mount_convention;
   if (const auto& mount = settings.source.mount) {
     json["mount_deg"] = {mount->roll_right_deg, mount->pitch_up_deg, mount->yaw_left_deg};
@@ -92,6 +95,7 @@ CompareSettings settings_from(const Json& json) {
   settings.source.images_dir = json.at("images_dir").get<std::string>();
   settings.source.camera = json.at("camera").get<std::string>();
   settings.source.calibration = json.at("calibration").get<std::string>();
+  settings.source.undistorted_fov_deg = json.value("undistorted_fov_deg", 0.0);
   settings.source.mount_convention = json.at("mount_convention").get<std::string>();
   if (json.contains("mount_deg")) {
     const Json& mount = json["mount_deg"];

@@ -25,7 +25,9 @@ mrpt::containers::yaml initialiser_yaml(const FrontEndOptions& options) {
 
 IntakeOptions intake_options(const FrontEndOptions& options) {
   const bool stereo = options.scale.source == "stereo";
-  return {options.camera, {options.mount_convention, options.calibration, stereo, std::nullopt}};
+  return {options.camera,
+          {options.mount_convention, options.calibration, stereo, std::nullopt,
+           options.undistorted_fov_deg}};
 }
 
 /// The comparison is false for NaN.
@@ -139,6 +141,9 @@ std::optional<FrameResult> FrontEnd::feed(const mrpt::obs::CObservation::Ptr& ob
     add_speed(intake.speed->time_s, intake.speed->speed, intake.speed->sigma);
   }
   if (!intake.frame) return std::nullopt;
+  if (!started_ && !intake_.scaling_note().empty()) {
+    MRPT_LOG_WARN_STREAM(intake_.scaling_note());
+  }
   return process(prepare(std::move(*intake.frame)));
 }
 

@@ -29,6 +29,9 @@ void FrontEndOptions::validate() const {
                      mount_convention == "x_forward";
   require(known, "front_end.mount_convention", mount_convention, "auto, optical or x_forward");
   if (calibration) calibration->validate();
+  require(
+      undistorted_fov_deg == 0.0 || (undistorted_fov_deg >= 10.0 && undistorted_fov_deg <= 150.0),
+      "front_end.undistorted_fov_deg", undistorted_fov_deg, "0, or from 10 to 150 degrees");
   tilt.validate();
   features.validate();
   InitialiserOptions{estimator, consensus, gc_ransac}.validate();

@@ -24,13 +24,13 @@ Correspondence seen_at(double x, double y, double moved_x, SceneGenerator& rando
   return ac;
 }
 
-/// Clouds that drift a pixel a frame over a street at rest.
+/// Clouds that drift by more than an inlier bound a frame over a street at rest.
 TrackedPair clouds_over_a_street(int below) {
   SceneGenerator random(4);
   TrackedPair pair;
   for (int i = 0; i < 500; ++i) {
     pair.correspondences.push_back(
-        seen_at(random.uniform(-0.6, 0.6), random.uniform(-0.5, -0.1), 1.0 / kFocal, random));
+        seen_at(random.uniform(-0.6, 0.6), random.uniform(-0.5, -0.1), 2.5 / kFocal, random));
   }
   for (int i = 0; i < below; ++i) {
     pair.correspondences.push_back(

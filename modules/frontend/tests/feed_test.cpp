@@ -74,6 +74,11 @@ TEST(FrontEndFeed, RefusesOptionsOfTheCameraOutOfBounds) {
   options = {};
   options.calibration = PinholeCamera{64, 48, -1.0, 50.0, 32.0, 24.0, {}};
   EXPECT_THROW(FrontEnd{options}, std::invalid_argument);
+  for (const double fov : {-90.0, 9.0, 170.0, std::nan("")}) {
+    options = {};
+    options.undistorted_fov_deg = fov;
+    EXPECT_THROW(FrontEnd{options}, std::invalid_argument) << fov;
+  }
 }
 
 TEST(FrontEndReadings, AreRefusedWhenNoVehicleCanHaveThem) {

@@ -8,7 +8,8 @@
 namespace oneac {
 
 bool PinholeCamera::is_distorted() const {
-  return std::any_of(distortion.begin(), distortion.end(), [](double k) { return k != 0.0; });
+  return lens != LensModel::plumb_bob ||
+         std::any_of(distortion.begin(), distortion.end(), [](double k) { return k != 0.0; });
 }
 
 double PinholeCamera::focal_px() const {
@@ -31,6 +32,24 @@ void PinholeCamera::validate() const {
   require(std::isfinite(cx), "PinholeCamera.cx", cx, "finite");
   require(std::isfinite(cy), "PinholeCamera.cy", cy, "finite");
   for (double k : distortion) require(std::isfinite(k), "PinholeCamera.distortion", k, "finite");
+}
+
+std::optional<PinholeCamera> resized(const PinholeCamera& camera, int width, int height) {
+  if (camera.width <= 0 || camera.height <= 0 || width <= 0 || height <= 0) return std::nullopt;
+  const double sx = static_cast<double>(width) / camera.width;
+  const double sy = static_cast<double>(height) / camera.height;
+  // A side is off by less than a pixel where it was rounded or cut to whole ones.
+  const double off_px =
+      std::min(std::abs(sx - sy) * camera.height, std::abs(sx - sy) * camera.width);
+  if (off_px >= 1.0) return std::nullopt;
+  PinholeCamera other = camera;
+  other.width = width;
+  other.height = height;
+  other.fx *= sx;
+  other.fy *= sy;
+  other.cx = (camera.cx + 0.5) * sx - 0.5;  // the corner of the image stays its corner
+  other.cy = (camera.cy + 0.5) * sy - 0.5;
+  return other;
 }
 
 AffineCorrespondence normalise(const AffineCorrespondence& ac_px, const PinholeCamera& first,

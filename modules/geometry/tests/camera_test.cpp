@@ -53,11 +53,30 @@ TEST(PinholeCamera, FocalLengthIsTheGeometricMean) {
 
 TEST(PinholeCamera, IsDistortedWithAnyCoefficient) {
   EXPECT_FALSE(wide_camera().is_distorted());
-  for (std::size_t k = 0; k < 5; ++k) {
+  for (std::size_t k = 0; k < wide_camera().distortion.size(); ++k) {
     PinholeCamera camera = wide_camera();
     camera.distortion[k] = -0.01;
     EXPECT_TRUE(camera.is_distorted()) << k;
   }
+}
+
+TEST(PinholeCamera, AFisheyeIsDistortedWithoutCoefficients) {
+  PinholeCamera camera = wide_camera();
+  camera.lens = LensModel::kannala_brandt;
+  EXPECT_TRUE(camera.is_distorted());
+}
+
+TEST(PinholeCamera, ResizedImagesSeeTheSame) {
+  const PinholeCamera half = *resized({1024, 768, 800, 810, 511.5, 383.5, {}}, 512, 384);
+  EXPECT_EQ(half.width, 512);
+  EXPECT_DOUBLE_EQ(half.fx, 400);
+  EXPECT_DOUBLE_EQ(half.fy, 405);
+  EXPECT_DOUBLE_EQ(half.cx, 255.5);  // the middle of the picture
+  EXPECT_DOUBLE_EQ(half.cy, 191.5);
+  EXPECT_TRUE(resized({1242, 375, 721, 721, 600, 180, {}}, 621, 187));  // 187.5
+  EXPECT_FALSE(resized({1242, 375, 721, 721, 600, 180, {}}, 621, 186));
+  EXPECT_FALSE(resized({1024, 768, 800, 810, 511.5, 383.5, {}}, 1024, 576));
+  EXPECT_FALSE(resized({0, 0, 800, 810, 511.5, 383.5, {}}, 1024, 576));
 }
 
 TEST(PinholeCamera, ValidationNamesFieldValueAndBound) {

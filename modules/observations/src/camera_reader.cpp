@@ -47,7 +47,7 @@ struct CameraReader::State {
         convention(convention_of(described, options, where)),
         mount(options.mount),
         camera(calibration),
-        undistorter(calibration) {}
+        undistorter(calibration, {options.undistorted_fov_deg, overridden}) {}
 
   std::string name;
   mrpt::img::TCamera stored;
@@ -103,6 +103,10 @@ GreyImage CameraReader::rectify(GreyImage grey, const std::string& name) const {
 
 PinholeCamera CameraReader::rectified_camera(const GreyImage& image) const {
   return state_->undistorter.rectified_camera(image);
+}
+
+std::string CameraReader::scaling_note() const {
+  return state_->undistorter.scaling_note();
 }
 
 bool CameraReader::undistorts() const {

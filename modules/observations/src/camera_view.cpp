@@ -141,16 +141,33 @@ PinholeCamera to_pinhole(const mrpt::img::TCamera& camera, const std::string& wh
                       camera.nrows < kLargestSide;
   if (!usable) throw InputError(where, "it carries no calibration", kGiveCalibration);
   if (camera.distortion == DistortionModel::none) return pinhole;
-  const auto& k = camera.dist;  // k1 k2 p1 p2 k3, then the rational model's k4 k5 k6
-  const auto beyond = k.begin() + static_cast<std::ptrdiff_t>(pinhole.distortion.size());
+  const auto& k = camera.dist;
   const bool finite = std::all_of(k.begin(), k.end(), [](double v) { return std::isfinite(v); });
-  const bool supported = camera.distortion == DistortionModel::plumb_bob && finite &&
-                         std::all_of(beyond, k.end(), [](double v) { return v == 0.0; });
-  if (!supported) {
-    throw InputError(where, "the lens model is not plumb-bob with k1 k2 p1 p2 k3", kGiveTheirs);
+  if (!finite) throw InputError(where, "the lens has terms that are no numbers", kGiveTheirs);
+  if (camera.distortion == DistortionModel::plumb_bob) {
+    pinhole.distortion = k;
+    return pinhole;
   }
-  std::copy(k.begin(), beyond, pinhole.distortion.begin());
+  if (camera.distortion != DistortionModel::kannala_brandt) {
+    throw InputError(where, "the lens model is neither plumb-bob nor Kannala-Brandt", kGiveTheirs);
+  }
+  const auto terms = fisheye_terms_of_mrpt(k);
+  if (!terms) throw InputError(where, "the fisheye lens has more than four terms", kGiveTheirs);
+  pinhole.lens = LensModel::kannala_brandt;
+  std::copy(terms->begin(), terms->end(), pinhole.distortion.begin());
   return pinhole;
+}
+
+std::optional<std::array<double, 4>> fisheye_terms_of_mrpt(const std::array<double, 8>& dist) {
+  const auto none = [&](std::size_t from, std::size_t to) {
+    return std::all_of(dist.begin() + static_cast<std::ptrdiff_t>(from),
+                       dist.begin() + static_cast<std::ptrdiff_t>(to),
+                       [](double value) { return value == 0.0; });
+  };
+  if (!none(6, 8)) return std::nullopt;
+  if (none(2, 4)) return std::array<double, 4>{dist[0], dist[1], dist[4], dist[5]};
+  if (none(4, 6)) return std::array<double, 4>{dist[0], dist[1], dist[2], dist[3]};
+  return std::nullopt;
 }
 
 std::optional<double> rectified_baseline(const CameraView& right, const PinholeCamera& left,

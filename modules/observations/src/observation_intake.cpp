@@ -73,6 +73,10 @@ Intake ObservationIntake::take(const CObservation& observation) {
   return take_image(observation);
 }
 
+std::string ObservationIntake::scaling_note() const {
+  return reader_ ? reader_->scaling_note() : "";
+}
+
 Intake ObservationIntake::pass(PassedOver reason) {
   ++counts_.passed_over[static_cast<std::size_t>(reason)];
   Intake nothing;

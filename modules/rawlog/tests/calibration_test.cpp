@@ -50,7 +50,7 @@ TEST_F(Calibration, ReadsANamedSectionWithDistortion) {
   EXPECT_DOUBLE_EQ(camera.fy, 839.808333);
   EXPECT_DOUBLE_EQ(camera.cx, 522.434637);
   EXPECT_DOUBLE_EQ(camera.cy, 402.3674);
-  const std::array<double, 5> expected{-0.3636834, 0.1766205, 0.0, 0.001, -0.002};
+  const std::array<double, 8> expected{-0.3636834, 0.1766205, 0.0, 0.001, -0.002};
   EXPECT_EQ(camera.distortion, expected);
 }
 
@@ -82,9 +82,13 @@ TEST_F(Calibration, ReadsWhatMrptWrites) {
 
 TEST_F(Calibration, RefusesOtherLensModels) {
   const std::string head = "[C]\nresolution=[640 480]\ncx=1\ncy=1\nfx=1\nfy=1\n";
-  EXPECT_NE(fault(file("a", head + "distortion=kannala_brandt\n"), "").find("kannala_brandt"),
+  EXPECT_NE(fault(file("a", head + "distortion=double_sphere\n"), "").find("double_sphere"),
             std::string::npos);
-  EXPECT_NE(fault(file("b", head + "dist=[0 0 0 0 0 1]\n"), "").find("beyond"), std::string::npos);
+  EXPECT_NE(fault(file("b", head + "dist=[0 0 0 0 0 0 0 0 1]\n"), "").find("beyond"),
+            std::string::npos);
+  const std::string fisheye = head + "distortion_model=kannala_brandt\n";
+  EXPECT_NE(fault(file("c", fisheye + "dist=[0 0 1 1 1 0 0 0]\n"), "").find("beyond k1 k2 k3 k4"),
+            std::string::npos);
 }
 
 TEST_F(Calibration, ReadsKittiProjections) {

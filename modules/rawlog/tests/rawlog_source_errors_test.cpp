@@ -6,6 +6,9 @@
 #include <gtest/gtest.h>
 
 #include <opencv2/imgcodecs.hpp>
+#include <opencv2/imgproc.hpp>
+
+#include <cmath>
 
 namespace oneac {
 namespace {
@@ -96,11 +99,12 @@ TEST_F(SourceErrors, LogWithoutCalibration) {
   expect_fault({"record 0", "CAM", "no calibration", "--calibration"});
 }
 
-TEST_F(SourceErrors, FisheyeLens) {
+TEST_F(SourceErrors, LensThatNoModelDescribes) {
   auto image = test::stored_image("CAM", 0, ramp(0));
-  image->cameraParams.setDistortionKannalaBrandt(0.1, 0, 0, 0);
+  image->cameraParams.distortion = mrpt::img::DistortionModel::kannala_brandt;
+  image->cameraParams.dist = {0.1, 0, 1, 1, 1, 1, 0, 0};
   test::write_log(options_.log, {image});
-  expect_fault({"lens model", "--calibration"});
+  expect_fault({"fisheye lens has more than four terms", "--calibration"});
 }
 
 TEST_F(SourceErrors, CalibrationThatChangesWithinTheLog) {
@@ -115,6 +119,27 @@ TEST_F(SourceErrors, ImageWithoutTimeStamp) {
   image->timestamp = INVALID_TIMESTAMP;
   test::write_log(options_.log, {image});
   expect_fault({"record 0", "time stamp"});
+}
+
+TEST_F(SourceErrors, TheFirstImageDecidesOnTheSizeWhicheverIsLoadedFirst) {
+  cv::Mat small;
+  cv::resize(ramp(0), small, cv::Size(32, 24));
+  test::write_log(options_.log,
+                  {test::stored_image("CAM", 0, ramp(0)), test::stored_image("CAM", 1, small)});
+  test::write_bytes(folder_.path() / "cameras.txt", "1 PINHOLE 128 96 100 100 64 48\n");
+  options_.calibration = (folder_.path() / "cameras.txt").string();
+  RawlogSource source(options_);
+  const auto first = source.next(), second = source.next();
+  const std::string said = test::input_error([&] { static_cast<void>(source.load(*second)); });
+  EXPECT_NE(said.find("size of the images changes"), std::string::npos) << said;
+  EXPECT_DOUBLE_EQ(source.load(*first).camera.fx, 50.0);
+}
+
+TEST_F(SourceErrors, ViewThatNoPinholeImageHas) {
+  for (const double fov : {5.0, 170.0, -90.0, std::nan("")}) {
+    options_.undistorted_fov_deg = fov;
+    expect_fault({"--undistorted-fov", "from 10 to 150"});
+  }
 }
 
 TEST_F(SourceErrors, OptionsOutOfBounds) {

@@ -110,16 +110,16 @@ ImageReferences::ImageReferences(const fs::path& log, bool copy) {
   require_writable_folder(copies_);
 }
 
-std::string ImageReferences::refer_to(const fs::path& image) const {
+std::string ImageReferences::refer_to(const fs::path& image, const std::string& prefix) const {
   if (copies_.empty()) return fs::canonical(image).string();
+  const std::string name = prefix + image.filename().string();
   std::error_code error;
-  fs::copy_file(image, copies_ / image.filename(), fs::copy_options::overwrite_existing, error);
+  fs::copy_file(image, copies_ / name, fs::copy_options::overwrite_existing, error);
   if (error) {
-    throw OutputError((copies_ / image.filename()).string(),
-                      "cannot be copied (" + error.message() + ")",
+    throw OutputError((copies_ / name).string(), "cannot be copied (" + error.message() + ")",
                       "free some space or import without --copy-images");
   }
-  return image.filename().string();
+  return name;
 }
 
 }  // namespace oneac

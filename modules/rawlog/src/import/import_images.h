@@ -33,7 +33,9 @@ class ImageReferences {
   ImageReferences(const std::filesystem::path& log, bool copy);
   /// What to store in the log for an image that exists. @throws OutputError when it cannot be
   /// copied
-  [[nodiscard]] std::string refer_to(const std::filesystem::path& image) const;
+  /// @param prefix  of its copy's name: the images of a pair have the same one
+  [[nodiscard]] std::string refer_to(const std::filesystem::path& image,
+                                     const std::string& prefix = "") const;
 
  private:
   std::filesystem::path copies_;  ///< empty: images stay where they are

@@ -1,27 +1,23 @@
 #include "oneac/rawlog/import_kitti.h"
 
+#include "import/image_drive.h"
 #include "import/import_images.h"
 #include "import/number_table.h"
+#include "import/stamps.h"
 
 #include "oneac/base/atomic_file.h"
 #include "oneac/base/error.h"
-#include "oneac/base/median.h"
-#include "oneac/base/number_text.h"
-#include "oneac/geometry/camera_height.h"
 #include "oneac/rawlog/calibration.h"
-#include "oneac/rawlog/rawlog_writer.h"
 
 #include <Eigen/Dense>
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <cmath>
 #include <fstream>
 #include <optional>
 #include <string>
 #include <tuple>
-#include <utility>
 #include <vector>
 
 namespace oneac {
@@ -29,10 +25,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr double kRate_hz = 10.0;          // KITTI's, where times.txt is missing
-constexpr double kEpoch_s = 1317016800.0;  // 26 September 2011, when sequence 03 was recorded
-constexpr double kUnixTimes_s = 1e8;       // times.txt counts from 0; larger ones are Unix times
-constexpr double kHeight_m = 1.65;         // of KITTI's cameras above the road
+constexpr double kRate_hz = 10.0;   // KITTI's, where times.txt is missing
+constexpr double kHeight_m = 1.65;  // of KITTI's cameras above the road
 constexpr std::array<double, 3> kFocals_px{707.0912, 718.856, 721.5377};  // of KITTI's days
 constexpr double kSameFocal_px = 0.05;
 constexpr std::size_t kPoseColumns = 12;  // rows of [R | t]
@@ -66,106 +60,23 @@ PinholeCamera find_calibration(const fs::path& source, const Sequence& sequence)
   return camera;
 }
 
-std::optional<std::size_t> number_of(const fs::path& image) {
-  const std::string stem = image.stem().string();
-  std::size_t number = 0;
-  const auto result = std::from_chars(stem.data(), stem.data() + stem.size(), number);
-  const bool all = result.ec == std::errc() && result.ptr == stem.data() + stem.size();
-  return all ? std::optional(number) : std::nullopt;
-}
-
-/// Row of a table that belongs to each image; empty when neither numbers nor order fit.
-std::vector<std::size_t> rows_of(const std::vector<fs::path>& images, std::size_t rows) {
-  std::vector<std::size_t> chosen;
-  for (const fs::path& image : images) {
-    const auto number = number_of(image);
-    if (number && *number < rows) chosen.push_back(*number);
-  }
-  if (chosen.size() == images.size()) return chosen;
-  chosen.clear();
-  if (images.size() != rows) return chosen;
-  for (std::size_t i = 0; i < rows; ++i) chosen.push_back(i);
-  return chosen;
-}
-
-std::string counts(std::size_t rows, std::size_t images) {
-  return std::to_string(rows) + " rows for " + std::to_string(images) + " images";
-}
-
-struct TimeUnit {
-  const char* name;
-  double seconds;
-};
-// Steps of a thousand, and spacings of images that differ by less: one unit fits at most.
-constexpr std::array<TimeUnit, 4> kUnits{
-    {{"seconds", 1.0}, {"milliseconds", 1e-3}, {"microseconds", 1e-6}, {"nanoseconds", 1e-9}}};
-constexpr double kClosest_s = 0.004, kWidest_s = 2.0;  // 250 Hz, an image in two seconds
-constexpr double kLatest_s = 4.1e9;                    // the year 2100
-
-constexpr const char* kTimesCure =
-    "give seconds, or ms, us or ns of a drive with an image every 4 ms to 2 s, or take the file "
-    "away for 10 Hz";
-
-/// The unit that makes the median spacing one of images; seconds for a single row.
-TimeUnit unit_by_spacing(const std::vector<std::vector<double>>& table, const fs::path& file) {
-  std::vector<double> spacings;
-  for (std::size_t i = 1; i < table.size(); ++i) {
-    spacings.push_back(std::abs(table[i][0] - table[i - 1][0]));
-  }
-  if (spacings.empty()) return kUnits[0];
-  const double median = upper_median(std::move(spacings));
-  for (const TimeUnit& unit : kUnits) {
-    const double spacing = unit.seconds * median;
-    if (spacing >= kClosest_s && spacing <= kWidest_s) return unit;
-  }
-  throw InputError(file.string(),
-                   "rows are " + exact_text(median) +
-                       " apart, which is no spacing of images in s, "
-                       "ms, us or ns",
-                   kTimesCure);
-}
-
-/// @throws InputError naming the row of a time that is none since 1970 or the start
-TimeUnit unit_of(const std::vector<std::vector<double>>& table, const fs::path& file) {
-  const TimeUnit unit = unit_by_spacing(table, file);
-  for (std::size_t row = 0; row < table.size(); ++row) {
-    const double time_s = unit.seconds * table[row][0];
-    if (time_s >= 0.0 && time_s <= kLatest_s) continue;
-    throw InputError(
-        file.string() + ": row " + std::to_string(row + 1),
-        exact_text(table[row][0]) + " " + unit.name + " is no time since the start or 1970",
-        kTimesCure);
-  }
-  return unit;
+/// image_1 beside image_0, image_3 beside image_2.
+std::optional<RightImages> find_right(const fs::path& source, const Sequence& sequence,
+                                      ImportReport& report) {
+  const bool grey = sequence.label == "image_0", colour = sequence.label == "image_2";
+  if (!grey && !colour) return std::nullopt;
+  return kitti_right_images(sequence.images, source / (grey ? "image_1" : "image_3"),
+                            source / "calib.txt", grey ? "P0" : "P2", grey ? "P1" : "P3", report);
 }
 
 std::vector<double> find_times(const fs::path& source, const Sequence& sequence,
                                ImportReport& report) {
   const fs::path file = source / "times.txt";
-  std::vector<double> times;
   if (!fs::exists(file)) {
     report.notes.emplace_back("no times.txt: the images are stamped at 10 Hz");
-    for (std::size_t i = 0; i < sequence.images.size(); ++i) {
-      times.push_back(kEpoch_s + static_cast<double>(i) / kRate_hz);
-    }
-    return times;
+    return stamps_at_rate(sequence.images.size(), kRate_hz);
   }
-  const auto table = read_number_table(file, 1);
-  const auto rows = rows_of(sequence.images, table.size());
-  if (rows.empty()) {
-    throw InputError(file.string(), counts(table.size(), sequence.images.size()),
-                     "give the times.txt of this sequence, or take it away for 10 Hz");
-  }
-  const TimeUnit unit = unit_of(table, file);
-  if (unit.seconds != 1.0) report.notes.push_back(std::string("times.txt is in ") + unit.name);
-  const double epoch = unit.seconds * table.front()[0] < kUnixTimes_s ? kEpoch_s : 0.0;
-  for (const std::size_t row : rows) {
-    times.push_back(epoch + unit.seconds * table[row][0]);
-    if (times.size() < 2 || times.back() > times[times.size() - 2]) continue;
-    throw InputError(file.string() + ": row " + std::to_string(row + 1), "time does not increase",
-                     "give the times.txt of this sequence, or take it away for 10 Hz");
-  }
-  return times;
+  return stamps_from_table(file, sequence.images, report);
 }
 
 std::vector<std::string> lines_of(const fs::path& file) {
@@ -220,11 +131,8 @@ bool is_kittis(const PinholeCamera& camera) {
 /// [m] above the road; 0: nobody knows.
 double height_of(const KittiImport& options, const PinholeCamera& camera, ImportReport& report) {
   if (options.camera_height_m) {
-    if (CameraHeight::is_plausible(*options.camera_height_m)) return *options.camera_height_m;
-    throw InputError("--camera-height " + exact_text(*options.camera_height_m),
-                     "no camera of a vehicle is so high above the road",
-                     "give metres, from " + exact_text(CameraHeight::kLowest) + " to " +
-                         exact_text(CameraHeight::kHighest));
+    require_camera_height(*options.camera_height_m);
+    return *options.camera_height_m;
   }
   if (is_kittis(camera)) {
     report.notes.emplace_back(
@@ -238,38 +146,27 @@ double height_of(const KittiImport& options, const PinholeCamera& camera, Import
   return 0.0;
 }
 
-void note_order(const Sequence& sequence, ImportReport& report) {
-  if (!is_reordered(sequence.images)) return;
-  report.notes.emplace_back("the images are ordered by the numbers in their names: " +
-                            sequence.images.front().filename().string() + " to " +
-                            sequence.images.back().filename().string());
-}
-
 }  // namespace
 
 ImportReport import_kitti(const KittiImport& options) {
   const Sequence sequence = find_images(options.source);
   ImportReport report;
   report.log = options.log;
-  report.images = report.observations = sequence.images.size();
-  ImageRecord record;
-  record.label = sequence.label;
-  record.camera = find_calibration(options.source, sequence);
-  require_mount(options.mount);
-  record.T_vehicle_cam.linear() = mount_rotation(options.mount);
-  record.T_vehicle_cam.translation().z() = height_of(options, record.camera, report);
-  record.convention = options.convention;
-  note_order(sequence, report);
-  const std::vector<double> times = find_times(options.source, sequence, report);
-  RawlogWriter log(options.log);
-  const ImageReferences references(options.log, options.copy_images);
-  for (std::size_t i = 0; i < times.size(); ++i) {
-    record.time_s = times[i];
-    record.file = references.refer_to(sequence.images[i]);
-    log.write(record);
-  }
-  copy_poses(options.source, sequence, report);
-  log.close();
+  ImageDrive drive;
+  drive.label = sequence.label;
+  drive.images = sequence.images;
+  drive.camera = options.calibration.empty()
+                     ? find_calibration(options.source, sequence)
+                     : calibration_for(options.calibration, sequence.images.front(), report);
+  drive.T_vehicle_cam = mount_at(options.mount, height_of(options, drive.camera, report));
+  drive.convention = options.convention;
+  note_order(sequence.images, report);
+  drive.times_s = options.fps ? stamps_of_fps(*options.fps, sequence.images.size())
+                              : find_times(options.source, sequence, report);
+  if (options.calibration.empty()) drive.right = find_right(options.source, sequence, report);
+  require_writable_folder(options.log.has_parent_path() ? options.log.parent_path() : ".");
+  copy_poses(options.source, sequence, report);  // poses that are none leave no log
+  write_drive(drive, options.log, options.copy_images, report);
   return report;
 }
 

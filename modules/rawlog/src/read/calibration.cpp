@@ -1,11 +1,16 @@
 #include "oneac/rawlog/calibration.h"
 
+#include "calibration/calibration_entry.h"
+#include "calibration/flat_document.h"
+#include "calibration/text_calibrations.h"
+#include "calibration/yaml_calibrations.h"
 #include "read/calibration_file.h"
 
 #include "oneac/base/error.h"
 
 #include <algorithm>
 #include <cctype>
+#include <memory>
 
 namespace oneac {
 namespace {
@@ -49,24 +54,54 @@ std::vector<std::string> named_after(const std::string& side,
   return matching;
 }
 
-std::string choose(const Wanted& wanted, const std::vector<std::string>& names,
-                   const std::string& side) {
-  const auto has = [&](const std::string& name) {
-    return std::find(names.begin(), names.end(), name) != names.end();
+CalibrationEntries section_calibrations(const fs::path& path, const std::string& text) {
+  const auto file = std::make_shared<const CalibrationFile>(sections_of(path, text));
+  CalibrationEntries entries;
+  for (const std::string& name : camera_sections(*file)) {
+    entries.push_back({name, true, [file, name] { return parse_camera(*file, name); }});
+  }
+  return entries;
+}
+
+/// The cameras of a file, whose kind its content tells.
+CalibrationEntries calibrations_in(const fs::path& path) {
+  const std::string text = calibration_text(path);
+  const auto first = text.find_first_not_of(" \t\r\n");
+  if (first == std::string::npos) return {};
+  if (text[first] == '<') return document_calibrations(flat_xml(path, text));
+  if (is_calibration_yaml(path, text)) return document_calibrations(flat_yaml(path, text));
+  if (auto entries = colmap_calibrations(path, text); !entries.empty()) return entries;
+  if (auto entries = kitti_raw_calibrations(path, text); !entries.empty()) return entries;
+  return section_calibrations(path, text);
+}
+
+const CalibrationEntry& choose(const Wanted& wanted, const CalibrationEntries& entries,
+                               const std::string& side) {
+  std::vector<std::string> all, offered;
+  for (const CalibrationEntry& entry : entries) {
+    all.push_back(entry.section);
+    if (entry.offered) offered.push_back(entry.section);
+  }
+  const auto named = [&](const std::string& name) -> const CalibrationEntry* {
+    const auto found = std::find(all.begin(), all.end(), name);
+    return found == all.end() ? nullptr : &entries[static_cast<std::size_t>(found - all.begin())];
   };
-  const std::string list = "the sections that exist: " + joined(names);
-  if (names.empty()) {
+  const std::string list = "the sections that exist: " + joined(all);
+  if (all.empty()) {
     throw InputError(wanted.file, "it holds no camera calibration",
-                     "give a camera_params file, an MRPT camera section or a KITTI calib.txt");
+                     "give an MRPT camera section, or a calibration of KITTI, OpenCV, ROS, Kalibr, "
+                     "COLMAP or ORB-SLAM");
   }
   if (!wanted.section.empty()) {
-    if (has(wanted.section)) return wanted.section;
+    if (const auto* entry = named(wanted.section)) return *entry;
     throw InputError(wanted.file, "it has no camera section '" + wanted.section + "'", list);
   }
-  if (names.size() == 1) return names.front();
-  if (has("P0")) return "P0";
-  const auto matching = named_after(side, names);
-  if (matching.size() == 1) return matching.front();
+  if (offered.size() == 1) return *named(offered.front());
+  for (const char* first : {"P0", "P_rect_00"}) {
+    if (const auto* entry = named(first)) return *entry;
+  }
+  const auto matching = named_after(side, offered);
+  if (matching.size() == 1) return *named(matching.front());
   throw InputError(wanted.file, "it has several sections", "give FILE:SECTION; " + list);
 }
 
@@ -79,8 +114,8 @@ PinholeCamera load_calibration(const std::string& file_and_section,
   if (!fs::is_regular_file(wanted.file, ignored)) {
     throw InputError(wanted.file, "no such calibration file", "give FILE or FILE:SECTION");
   }
-  const CalibrationFile file = read_calibration_file(wanted.file);
-  return parse_camera(file, choose(wanted, camera_sections(file), preferred_side));
+  const CalibrationEntries entries = calibrations_in(wanted.file);
+  return choose(wanted, entries, preferred_side).read();
 }
 
 }  // namespace oneac

@@ -1,12 +1,18 @@
 #include "read/calibration_file.h"
 
+#include "calibration/calibration_numbers.h"
+
 #include "oneac/base/error.h"
+#include "oneac/observations/camera_view.h"
 
 #include <algorithm>
+#include <array>
 #include <charconv>
 #include <cmath>
 #include <fstream>
 #include <optional>
+#include <sstream>
+#include <string_view>
 
 namespace oneac {
 namespace {
@@ -73,21 +79,27 @@ struct SectionReader {
   }
 };
 
-void read_distortion(const SectionReader& reader, PinholeCamera& camera) {
-  const auto model = reader.entries.find("distortion");
-  const std::string name = model == reader.entries.end() ? "plumb_bob" : model->second;
-  if (name == "none") return;
-  if (name != "plumb_bob") {
-    throw InputError(reader.file.path.string() + ": section [" + reader.name + "]",
-                     "the lens model '" + name + "' is not supported",
-                     "rectify the images and give their calibration");
+// MRPT's releases name the model "distortion" or "distortion_model".
+std::string lens_model(const SectionReader& reader) {
+  for (const char* key : {"distortion", "distortion_model"}) {
+    const auto model = reader.entries.find(key);
+    if (model != reader.entries.end()) return model->second;
   }
-  const auto k = reader.entries.count("dist") == 0 ? std::vector<double>{} : reader.list("dist");
-  const bool beyond =
-      std::any_of(k.begin() + std::min<std::ptrdiff_t>(static_cast<std::ptrdiff_t>(k.size()), 5),
-                  k.end(), [](double value) { return value != 0.0; });
-  if (beyond) reader.fail("dist has terms beyond k1 k2 p1 p2 k3");
-  std::copy_n(k.begin(), std::min(k.size(), camera.distortion.size()), camera.distortion.begin());
+  return "plumb_bob";
+}
+
+void read_distortion(const SectionReader& reader, PinholeCamera& camera) {
+  const std::string model = lens_model(reader);
+  auto k = reader.entries.count("dist") == 0 ? std::vector<double>{} : reader.list("dist");
+  if (model == "kannala_brandt" && k.size() == camera.distortion.size()) {
+    std::array<double, 8> stored{};
+    std::copy(k.begin(), k.end(), stored.begin());
+    const auto terms = fisheye_terms_of_mrpt(stored);
+    if (!terms) reader.fail("dist has terms beyond k1 k2 k3 k4");
+    k.assign(terms->begin(), terms->end());
+  }
+  const CalibrationPlace place(reader.file.path, "section [" + reader.name + "]");
+  set_lens(model, k, place, camera);
 }
 
 PinholeCamera parse_sections(const SectionReader& reader) {
@@ -125,25 +137,45 @@ bool is_projection_name(const std::string& name) {
 
 }  // namespace
 
-CalibrationFile read_calibration_file(const std::filesystem::path& path) {
-  std::ifstream stream(path);
+std::string calibration_text(const std::filesystem::path& path) {
+  constexpr std::size_t kLongest = 1U << 20;  // a rig's calibration has some kB
+  std::ifstream stream(path, std::ios::binary);
   if (!stream)
     throw InputError(path.string(), "the calibration cannot be opened", "check its name");
+  std::string text(kLongest, '\0');
+  stream.read(text.data(), static_cast<std::streamsize>(text.size()));
+  text.resize(static_cast<std::size_t>(stream.gcount()));
+  if (text.size() == kLongest) {
+    throw InputError(path.string(), "it is too long for a calibration", "check its name");
+  }
+  constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
+  if (text.compare(0, kByteOrderMark.size(), kByteOrderMark) == 0) {
+    text.erase(0, kByteOrderMark.size());
+  }
+  return text;
+}
+
+CalibrationFile read_calibration_file(const std::filesystem::path& path) {
+  return sections_of(path, calibration_text(path));
+}
+
+CalibrationFile sections_of(const std::filesystem::path& path, const std::string& text) {
+  std::istringstream stream(text);
   CalibrationFile file{path, {}};
   std::string section;
   for (std::string line; std::getline(stream, line);) {
-    const std::string text = without_comment(line);
-    if (text.empty()) continue;
-    if (text.front() == '[' && text.back() == ']') {
-      section = trimmed(text.substr(1, text.size() - 2));
+    const std::string entry = without_comment(line);
+    if (entry.empty()) continue;
+    if (entry.front() == '[' && entry.back() == ']') {
+      section = trimmed(entry.substr(1, entry.size() - 2));
       file.sections[section];
       continue;
     }
-    const auto split = text.find_first_of("=:");
+    const auto split = entry.find_first_of("=:");
     if (split == std::string::npos) continue;
-    const std::string key = trimmed(text.substr(0, split));
-    const std::string value = trimmed(text.substr(split + 1));
-    if (text[split] == '=') {
+    const std::string key = trimmed(entry.substr(0, split));
+    const std::string value = trimmed(entry.substr(split + 1));
+    if (entry[split] == '=') {
       file.sections[section][key] = value;
     } else if (is_projection_name(key)) {
       file.sections[key][kKittiKey] = value;

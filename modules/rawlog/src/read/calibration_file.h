@@ -21,7 +21,14 @@ struct CalibrationFile {
 
 inline constexpr const char* kKittiKey = "projection";
 
-/// @throws InputError when the file cannot be read
+/// The text of a calibration file without a byte-order mark.
+/// @throws InputError when it cannot be read or is longer than a MB
+[[nodiscard]] std::string calibration_text(const std::filesystem::path& path);
+
+[[nodiscard]] CalibrationFile sections_of(const std::filesystem::path& path,
+                                          const std::string& text);
+
+/// @throws InputError as calibration_text()
 [[nodiscard]] CalibrationFile read_calibration_file(const std::filesystem::path& path);
 
 /// Names of the sections that describe a camera, in alphabetical order.

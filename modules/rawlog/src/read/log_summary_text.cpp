@@ -76,8 +76,12 @@ std::string calibration_text(const CameraSummary& camera, bool overridden) {
   if (c.width > 0) line += text("%dx%d, ", c.width, c.height);
   line += text("f (%.5g, %.5g) px, c (%.5g, %.5g) px", c.fx, c.fy, c.cx, c.cy);
   const auto& k = c.distortion;
-  if (c.is_distorted()) {
+  if (c.lens == LensModel::kannala_brandt) {
+    line += text(", fisheye k1 k2 k3 k4 = %.4g %.4g %.4g %.4g", k[0], k[1], k[2], k[3]);
+  } else if (c.is_distorted()) {
     line += text(", k1 k2 p1 p2 k3 = %.4g %.4g %.4g %.4g %.4g", k[0], k[1], k[2], k[3], k[4]);
+    const bool rational = k[5] != 0.0 || k[6] != 0.0 || k[7] != 0.0;
+    if (rational) line += text(", k4 k5 k6 = %.4g %.4g %.4g", k[5], k[6], k[7]);
   }
   return line + (overridden ? " (given by --calibration)" : " (from the log)");
 }

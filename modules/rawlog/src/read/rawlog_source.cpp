@@ -8,6 +8,7 @@
 #include "read/reference_collector.h"
 
 #include "oneac/base/error.h"
+#include "oneac/base/number_text.h"
 #include "oneac/base/thread_clock.h"
 #include "oneac/mrpt_compat/observations.h"
 #include "oneac/observations/camera_reader.h"
@@ -39,6 +40,12 @@ struct Sight {
 
 void SourceOptions::validate() const {
   if (every < 1) throw InputError("--every 0", "it must be at least 1", "use 1 for every image");
+  const bool chosen = undistorted_fov_deg == 0.0;
+  if (!chosen && !(undistorted_fov_deg >= 10.0 && undistorted_fov_deg <= 150.0)) {
+    throw InputError("--undistorted-fov " + exact_text(undistorted_fov_deg),
+                     "no pinhole image of a road has this field of view",
+                     "give degrees across the image, from 10 to 150, or 0 to keep the road");
+  }
   static_cast<void>(mount_from_sensor_pose(Eigen::Isometry3d::Identity(), mount_convention));
 }
 
@@ -58,6 +65,7 @@ class RawlogSource::Impl {
   [[nodiscard]] bool is_selected(std::size_t index) const;
   [[nodiscard]] std::optional<FrameTicket> ticket_of(const Sight& sight,
                                                      const RawlogRecord& record);
+  void settle_size(const StoredImage& first, const std::string& ticket_name);
   void add_right(const LogView& right, std::size_t record, Payload& payload);
   [[nodiscard]] GreyImage decoded(const StoredImage& image, const std::string& ticket_name) const;
   [[nodiscard]] std::string where(std::size_t record) const;
@@ -74,6 +82,7 @@ class RawlogSource::Impl {
   SourceReport report_;
   std::size_t delivered_ = 0;
   std::optional<double> last_time_;
+  bool size_settled_ = false;
 };
 
 RawlogSource::Impl::Impl(const SourceOptions& options)
@@ -90,6 +99,7 @@ CameraReaderOptions RawlogSource::Impl::reader_options() const {
   options.mount_convention = options_.mount_convention;
   options.stereo = options_.stereo;
   options.mount = options_.mount;
+  options.undistorted_fov_deg = options_.undistorted_fov_deg;
   if (!options_.calibration.empty()) {
     options.calibration = load_calibration(options_.calibration, chosen_.side_name);
   }
@@ -162,7 +172,20 @@ std::optional<FrameTicket> RawlogSource::Impl::ticket_of(const Sight& sight,
   ticket.time_s = CameraReader::time_of(record.observation->timestamp, where(record.number));
   payload->T_vehicle_cam = camera_.mount(view);
   ticket.payload = std::move(payload);
+  if (!size_settled_)
+    settle_size(std::static_pointer_cast<const Payload>(ticket.payload)->image, ticket.name);
   return ticket;
+}
+
+// Where the calibration leaves the size of the images open, the first one decides on it, whichever
+// is loaded first by the threads that share the work.
+void RawlogSource::Impl::settle_size(const StoredImage& first, const std::string& ticket_name) {
+  size_settled_ = true;
+  if (options_.calibration.empty() && chosen_.calibration.ncols != 0) return;
+  try {
+    static_cast<void>(decoded(first, ticket_name));
+  } catch (const InputError&) {  // load() says it
+  }
 }
 
 GreyImage RawlogSource::Impl::decoded(const StoredImage& image,
@@ -202,6 +225,7 @@ void RawlogSource::Impl::finish() {
 
 void RawlogSource::Impl::complete_report() {
   if (reader_.damage()) report_.damage = reader_.damage()->what();
+  report_.calibration_scaled = camera_.scaling_note();
   report_.names_out_of_order = names_.fault();
   report_.reference = collector_.build();
 }

@@ -29,9 +29,14 @@ mrpt::img::TCamera mrpt_camera(const PinholeCamera& camera) {
   params.ncols = static_cast<std::uint32_t>(camera.width);
   params.nrows = static_cast<std::uint32_t>(camera.height);
   params.setIntrinsicParamsFromValues(camera.fx, camera.fy, camera.cx, camera.cy);
-  params.setDistortionPlumbBob(camera.distortion[0], camera.distortion[1], camera.distortion[2],
-                               camera.distortion[3], camera.distortion[4]);
-  if (!camera.is_distorted()) params.distortion = mrpt::img::DistortionModel::none;
+  const auto& k = camera.distortion;
+  if (camera.lens == LensModel::kannala_brandt) {
+    params.setDistortionKannalaBrandt(k[0], k[1], k[2], k[3]);
+  } else {
+    params.distortion = camera.is_distorted() ? mrpt::img::DistortionModel::plumb_bob
+                                              : mrpt::img::DistortionModel::none;
+    params.dist = k;
+  }
   return params;
 }
 

@@ -37,6 +37,7 @@ struct FrontEndOptions {
   std::string camera;
   std::string mount_convention = "auto";  ///< of feed()'s sensor poses: auto, optical or x_forward
   std::optional<PinholeCamera> calibration;  ///< of feed()'s images; else their observations'
+  double undistorted_fov_deg = 0.0;          ///< of feed()'s images, as of CameraReaderOptions
   std::string initialiser = "1ac_pooled";  ///< method of the relative pose, see initialiser_names()
   double camera_height =
       0.0;  ///< [m] above the road; 0: the height of the log's sensor pose if ≥ 0.5 m

@@ -35,6 +35,8 @@ struct CameraReaderOptions {
   bool stereo = false;                       ///< the right image of a pair is wanted too
   /// Instead of the orientation of the observations, whose positions are kept
   std::optional<MountAngles> mount;
+  /// Across the undistorted images [deg]; 0: chosen to keep the road, see Undistorter
+  double undistorted_fov_deg = 0.0;
 };
 
 /// One camera of a log or of a running vehicle: what makes a CameraFrame of its images, and the
@@ -45,7 +47,7 @@ struct CameraReaderOptions {
 class CameraReader {
  public:
   /// @param where  of the first image, for messages: "drive.rawlog: record 4"
-  /// @throws InputError: no calibration, a lens model that is not plumb-bob, a pose that is not
+  /// @throws InputError: no calibration, a lens model that MRPT does not name, a pose that is not
   ///         finite, an unknown convention, a pose of which neither convention makes a usual
   ///         mount ("auto", without `mount`); with `stereo` a camera that is not the left one
   CameraReader(const CameraDescription& first, const CameraReaderOptions& options,
@@ -65,8 +67,12 @@ class CameraReader {
   /// T_vehicle_cam of the optical frame. @throws InputError for a pose that is not finite
   [[nodiscard]] Eigen::Isometry3d mount(const CameraView& view) const;
   /// Undistorts when distorted.
-  /// @throws InputError naming the image when its size is not the calibration's or changes
+  /// @throws InputError naming the image when its size is not the calibration's (a given one is
+  ///         scaled where only the size differs) or changes
   [[nodiscard]] GreyImage rectify(GreyImage grey, const std::string& name) const;
+  /// One line when the given calibration is for images of another size and the same aspect, and was
+  /// scaled to these; else "". Complete once an image was rectified. Thread-safe.
+  [[nodiscard]] std::string scaling_note() const;
   /// The camera of the rectified images.
   [[nodiscard]] PinholeCamera rectified_camera(const GreyImage& image) const;
   /// The calibration in use has distortion: images are taken for raw.

@@ -6,6 +6,7 @@
 
 #include <Eigen/Geometry>
 
+#include <array>
 #include <optional>
 #include <string>
 #include <vector>
@@ -56,8 +57,13 @@ struct CameraView {
 
 /// The calibration as stored in an observation.
 /// @throws InputError naming `where` when there is none (not finite, not positive) or its lens
-///         model is not plumb-bob with k1 k2 p1 p2 k3
+///         model is none of LensModel's
 [[nodiscard]] PinholeCamera to_pinhole(const mrpt::img::TCamera& camera, const std::string& where);
+
+/// k1 … k4 of a fisheye out of TCamera::dist: MRPT's setters leave [k1 k2 0 0 k3 k4], its readers
+/// of vectors and files [k1 k2 k3 k4]. Empty when both places are in use.
+[[nodiscard]] std::optional<std::array<double, 4>> fisheye_terms_of_mrpt(
+    const std::array<double, 8>& dist);
 
 /// Baseline [m] of a pair whose rows correspond: parallel, side by side, equal calibrations; empty
 /// for any other pair, and for one whose images are not rectified.

@@ -69,6 +69,8 @@ class ObservationIntake {
   ///         image that cannot be decoded
   [[nodiscard]] Intake take(const mrpt::obs::CObservation& observation);
   [[nodiscard]] const IntakeCounts& counts() const { return counts_; }
+  /// As of CameraReader; "" before the first frame.
+  [[nodiscard]] std::string scaling_note() const;
 
  private:
   [[nodiscard]] Intake take_inertial(const mrpt::obs::CObservation& observation);

@@ -5,6 +5,7 @@
 
 #include <filesystem>
 #include <optional>
+#include <string>
 
 namespace oneac {
 
@@ -13,6 +14,8 @@ struct KittiImport {
   std::filesystem::path
       source;                 ///< holds image_0, image_l, image_2 or images (png, jpg), calib.txt
   std::filesystem::path log;  ///< rawlog to write
+  std::string calibration;    ///< FILE[:SECTION] instead of calib.txt; then no right images
+  std::optional<double> fps;  ///< stamps at this rate instead of times.txt [1/s]
   bool copy_images = false;   ///< copy to <log base>_Images instead of referring to them
   std::optional<double> camera_height_m;  ///< above the road [m]; none: 1.65 m where the folder is
                                           ///< KITTI's, else the log tells no height
@@ -27,6 +30,8 @@ struct KittiImport {
 /// to 1242 by 370 to 376); any other camera's height is unknown until somebody gives it. Rows of
 /// times.txt (without it: 10 Hz) and poses.txt belong to the images by their numbers, or by their
 /// order where the names are no numbers. poses.txt goes to <log base>_poses.txt.
+/// Where image_1 is beside image_0 (image_3 beside image_2) and calib.txt has P1 (P3), a
+/// CObservationStereoImages per pair with the baseline between the projections.
 /// @throws InputError naming file or folder, what is wrong with it and the cure; for a height that
 ///         is none of a vehicle's camera (CameraHeight) or a mount out of bounds
 ImportReport import_kitti(const KittiImport& options);

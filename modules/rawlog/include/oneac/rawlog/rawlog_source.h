@@ -24,7 +24,8 @@ struct SourceOptions {
   std::size_t first = 0;                  ///< first image of the camera to use
   std::size_t count = 0;                  ///< images to use at most; 0: all
   std::size_t every = 1;                  ///< use every K-th image from `first` on; ≥ 1
-  bool stereo = false;  ///< load the right image beside the left one, where it exists
+  bool stereo = false;               ///< load the right image beside the left one, where it exists
+  double undistorted_fov_deg = 0.0;  ///< across undistorted images [deg]; 0: the road is kept
 
   /// @throws InputError naming flag, value and bound
   void validate() const;
@@ -36,8 +37,10 @@ struct SourceReport {
   std::size_t images_missing = 0;  ///< external files that were not found (among those selected)
   std::string first_missing;       ///< name of the first of them
   std::string damage;  ///< one line (file, record, fault, cure) when the log ends badly, else ""
-  std::string names_out_of_order;   ///< one line with the cure, else ""
-  VehicleReference reference;       ///< GPS and IMU seen on the way
+  std::string names_out_of_order;  ///< one line with the cure, else ""
+  VehicleReference reference;      ///< GPS and IMU seen on the way
+  std::string
+      calibration_scaled;  ///< one line: the given calibration was for another size, else ""
   bool undistorted_by_log = false;  ///< images are taken for raw, because the log's calibration is
 };
 

@@ -1,0 +1,154 @@
+#include "import/gps_text.h"
+#include "import/stamps.h"
+
+#include "oneac/base/error.h"
+
+#include <expat.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <cstring>
+#include <fstream>
+#include <iterator>
+#include <memory>
+#include <optional>
+#include <string>
+
+namespace oneac {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::optional<double> number(const char* text) {
+  if (text == nullptr) return std::nullopt;
+  double value = 0.0;
+  const char* end = text + std::strlen(text);
+  const auto result = std::from_chars(text, end, value);
+  const bool whole = result.ec == std::errc() && result.ptr == end && std::isfinite(value);
+  return whole ? std::optional(value) : std::nullopt;
+}
+
+/// What is read of a GPX file: <trkpt lat= lon=><ele/><time/></trkpt>.
+class Track {
+ public:
+  explicit Track(XML_Parser parser) : parser_(parser) {}
+
+  void open(const std::string& element, const char** attributes) {
+    text_.clear();
+    if (element != "trkpt") return;
+    const auto latitude = number(attribute(attributes, "lat"));
+    const auto longitude = number(attribute(attributes, "lon"));
+    const bool sound =
+        latitude && longitude && std::abs(*latitude) <= 90.0 && std::abs(*longitude) <= 180.0;
+    if (!sound) return fail("trkpt has no lat and lon in degrees");
+    point_.emplace();
+    point_->label = "gps";
+    point_->time_s = kNoTime;
+    point_->position = {*latitude, *longitude, 0.0};
+  }
+  void add_text(const char* text, std::size_t length) {
+    constexpr std::size_t kLongest = 100;  // of a number or a time
+    if (point_ && text_.size() < kLongest) text_.append(text, std::min(length, kLongest));
+  }
+  void close(const std::string& element) {
+    if (!point_) return;
+    if (element == "ele") point_->position.altitude_m = number(trimmed().c_str()).value_or(0.0);
+    if (element == "time") {
+      const auto time = date_stamp(trimmed());
+      if (!time) return fail("time '" + trimmed() + "' is none such as 2024-05-01T10:00:00Z");
+      point_->time_s = *time;
+    }
+    if (element == "trkpt") finish_point();
+  }
+
+  [[nodiscard]] const std::string& fault() const { return fault_; }
+  [[nodiscard]] std::size_t line() const { return line_; }
+  [[nodiscard]] std::size_t passed_over() const { return passed_over_; }
+  [[nodiscard]] std::vector<GpsRecord>& points() { return points_; }
+
+ private:
+  static constexpr double kNoTime = -1.0;
+
+  static const char* attribute(const char** attributes, const char* name) {
+    for (; attributes[0] != nullptr; attributes += 2) {
+      if (std::strcmp(attributes[0], name) == 0) return attributes[1];
+    }
+    return nullptr;
+  }
+  [[nodiscard]] std::string trimmed() const {
+    const auto begin = text_.find_first_not_of(" \t\r\n");
+    if (begin == std::string::npos) return "";
+    return text_.substr(begin, text_.find_last_not_of(" \t\r\n") - begin + 1);
+  }
+  void finish_point() {
+    const bool later = points_.empty() || point_->time_s > points_.back().time_s;
+    if (point_->time_s == kNoTime || !later) {
+      ++passed_over_;
+    } else {
+      points_.push_back(*point_);
+    }
+    point_.reset();
+  }
+  void fail(const std::string& fault) {
+    fault_ = fault;
+    line_ = XML_GetCurrentLineNumber(parser_);
+    XML_StopParser(parser_, XML_FALSE);
+  }
+
+  XML_Parser parser_;
+  std::optional<GpsRecord> point_;
+  std::string text_;
+  std::vector<GpsRecord> points_;
+  std::size_t passed_over_ = 0, line_ = 0;
+  std::string fault_;
+};
+
+void parse(XML_Parser parser, Track& track, const std::string& text, const fs::path& file) {
+  XML_SetUserData(parser, &track);
+  XML_SetElementHandler(
+      parser,
+      [](void* to, const char* name, const char** attributes) {
+        static_cast<Track*>(to)->open(name, attributes);
+      },
+      [](void* to, const char* name) { static_cast<Track*>(to)->close(name); });
+  XML_SetCharacterDataHandler(parser, [](void* to, const char* some, int length) {
+    static_cast<Track*>(to)->add_text(some, static_cast<std::size_t>(length));
+  });
+  const bool read =
+      XML_Parse(parser, text.data(), static_cast<int>(text.size()), XML_TRUE) == XML_STATUS_OK;
+  if (read) return;
+  const bool own = !track.fault().empty();
+  const std::size_t line = own ? track.line() : XML_GetCurrentLineNumber(parser);
+  const std::string fault =
+      own ? track.fault()
+          : std::string("it is no XML (") + XML_ErrorString(XML_GetErrorCode(parser)) + ")";
+  throw InputError(file.string() + ": line " + std::to_string(line), fault,
+                   "export the track again");
+}
+
+}  // namespace
+
+std::vector<GpsRecord> read_gpx(const fs::path& file, ImportReport& report) {
+  constexpr std::size_t kLongest = 1U << 30;  // what expat takes at once
+  std::ifstream stream(file, std::ios::binary);
+  if (!stream) throw InputError(file.string(), "cannot be opened", "check its name");
+  const std::string text(std::istreambuf_iterator<char>(stream), {});
+  if (text.size() > kLongest) throw InputError(file.string(), "is too long for a track", "cut it");
+  const std::unique_ptr<XML_ParserStruct, decltype(&XML_ParserFree)> parser(
+      XML_ParserCreate(nullptr), &XML_ParserFree);
+  Track track(parser.get());
+  parse(parser.get(), track, text, file);
+  if (track.points().empty()) {
+    throw InputError(file.string(), "it holds no trkpt with a time",
+                     "export the track with its times");
+  }
+  if (track.passed_over() > 0) {
+    report.notes.push_back(std::to_string(track.passed_over()) + " points of " +
+                           file.filename().string() +
+                           " have no time or one that is not later than the one before");
+  }
+  return std::move(track.points());
+}
+
+}  // namespace oneac

@@ -1,0 +1,219 @@
+#include "import/image_drive.h"
+
+#include "calibration/calibration_numbers.h"
+#include "import/import_images.h"
+#include "import/stamps.h"
+#include "read/calibration_file.h"
+
+#include "oneac/base/error.h"
+#include "oneac/base/number_text.h"
+#include "oneac/geometry/camera_height.h"
+#include "oneac/rawlog/calibration.h"
+#include "oneac/rawlog/rawlog_writer.h"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <sstream>
+
+namespace oneac {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string size_text(int width, int height) {
+  return std::to_string(width) + "x" + std::to_string(height);
+}
+
+/// A record that is written when its turn comes.
+struct Pending {
+  double time_s;
+  std::function<void(RawlogWriter&)> write;
+};
+
+class DriveWriter {
+ public:
+  DriveWriter(const ImageDrive& drive, const fs::path& log, bool copy_images)
+      : drive_(drive), log_(log), references_(log, copy_images) {}
+
+  void run(ImportReport& report) {
+    std::vector<Pending> pending;
+    for (std::size_t i = 0; i < drive_.images.size(); ++i) {
+      pending.push_back({drive_.times_s[i], [this, i](RawlogWriter& log) { write_image(i, log); }});
+    }
+    for (const GpsRecord& fix : drive_.gps) {
+      pending.push_back({fix.time_s, [&fix](RawlogWriter& log) { log.write(fix); }});
+    }
+    for (const ImuRecord& sample : drive_.imu) {
+      pending.push_back({sample.time_s, [&sample](RawlogWriter& log) { log.write(sample); }});
+    }
+    std::stable_sort(pending.begin(), pending.end(),
+                     [](const Pending& a, const Pending& b) { return a.time_s < b.time_s; });
+    for (const Pending& record : pending) record.write(log_);
+    log_.close();
+    report.observations = drive_.images.size();
+    report.images = drive_.images.size() + rights_;
+    report.gps = drive_.gps.size();
+    report.imu = drive_.imu.size();
+  }
+
+ private:
+  void write_image(std::size_t i, RawlogWriter& log) {
+    if (drive_.right) return write_pair(i, log);
+    log.write(ImageRecord{drive_.times_s[i], drive_.label, drive_.camera, drive_.T_vehicle_cam,
+                          drive_.convention, references_.refer_to(drive_.images[i])});
+  }
+
+  void write_pair(std::size_t i, RawlogWriter& log) {
+    StereoRecord record;
+    record.time_s = drive_.times_s[i];
+    record.label = drive_.label;
+    record.left = record.right = drive_.camera;  // rectified together
+    record.T_vehicle_left = drive_.T_vehicle_cam;
+    record.T_left_right.translation().x() = drive_.right->baseline_m;
+    record.convention = drive_.convention;
+    record.left_file = references_.refer_to(drive_.images[i], "left_");
+    const fs::path& right = drive_.right->images[i];
+    if (!right.empty()) record.right_file = references_.refer_to(right, "right_");
+    rights_ += right.empty() ? 0U : 1U;
+    log.write(record);
+  }
+
+  const ImageDrive& drive_;
+  RawlogWriter log_;
+  ImageReferences references_;
+  std::size_t rights_ = 0;
+};
+
+/// fx and tx = -fx · (place of the camera) of a 3×4 projection.
+struct ProjectionRow {
+  double fx, tx;
+};
+
+std::optional<ProjectionRow> projection_row(const CalibrationFile& file, const std::string& name) {
+  const auto section = file.sections.find(name);
+  if (section == file.sections.end() || section->second.count(kKittiKey) == 0) return std::nullopt;
+  std::istringstream stream(section->second.at(kKittiKey));
+  std::vector<std::string> words;
+  for (std::string word; stream >> word;) words.push_back(word);
+  const CalibrationPlace place(file.path, "section [" + name + "]");
+  const std::vector<double> P = place.numbers(name, words);
+  constexpr std::size_t kEntries = 12;
+  if (P.size() != kEntries || !(P[0] > 0.0)) return std::nullopt;
+  return ProjectionRow{P[0], P[3]};
+}
+
+}  // namespace
+
+void write_drive(const ImageDrive& drive, const fs::path& log, bool copy_images,
+                 ImportReport& report) {
+  DriveWriter(drive, log, copy_images).run(report);
+}
+
+PinholeCamera calibration_for(const std::string& file_and_section, const fs::path& image,
+                              ImportReport& report) {
+  PinholeCamera camera = load_calibration(file_and_section, "left");
+  const auto [width, height] = image_size(image);
+  if (camera.width == 0 || camera.height == 0) {
+    camera.width = width;
+    camera.height = height;
+  }
+  if (camera.width == width && camera.height == height) return camera;
+  const std::string sizes = "is for " + size_text(camera.width, camera.height) +
+                            ", the images are " + size_text(width, height);
+  const auto scaled = resized(camera, width, height);
+  if (!scaled) {
+    throw InputError(file_and_section, sizes, "give the calibration of these images");
+  }
+  report.notes.push_back("the calibration " + sizes +
+                         ": it was scaled to them; give their own if they were cropped");
+  return *scaled;
+}
+
+PinholeCamera given_calibration(const DriveImport& options, const fs::path& image,
+                                ImportReport& report) {
+  if (!options.calibration.empty()) return calibration_for(options.calibration, image, report);
+  throw InputError(options.source.string(), "nothing tells the calibration of its camera",
+                   "give it with --calibration FILE[:SECTION]");
+}
+
+void require_camera_height(double height_m) {
+  if (CameraHeight::is_plausible(height_m)) return;
+  throw InputError("--camera-height " + exact_text(height_m),
+                   "no camera of a vehicle is so high above the road",
+                   "give metres, from " + exact_text(CameraHeight::kLowest) + " to " +
+                       exact_text(CameraHeight::kHighest));
+}
+
+double height_above_road(const DriveImport& options, ImportReport& report) {
+  if (options.camera_height_m) {
+    require_camera_height(*options.camera_height_m);
+    return *options.camera_height_m;
+  }
+  report.notes.emplace_back(
+      "the camera's height is not known, and nothing will be in metres by it: give "
+      "--camera-height");
+  return 0.0;
+}
+
+Eigen::Isometry3d mount_at(const MountAngles& mount, double height_m) {
+  require_mount(mount);
+  Eigen::Isometry3d T_vehicle_cam = Eigen::Isometry3d::Identity();
+  T_vehicle_cam.linear() = mount_rotation(mount);
+  T_vehicle_cam.translation().z() = height_m;
+  return T_vehicle_cam;
+}
+
+void note_order(const std::vector<fs::path>& images, ImportReport& report) {
+  if (!is_reordered(images)) return;
+  report.notes.emplace_back("the images are ordered by the numbers in their names: " +
+                            images.front().filename().string() + " to " +
+                            images.back().filename().string());
+}
+
+std::vector<double> stamps_of_fps(double fps, std::size_t images) {
+  constexpr double kSlowest = 0.5, kFastest = 250.0;  // [1/s] as the spacings of a times.txt
+  if (fps >= kSlowest && fps <= kFastest) return stamps_at_rate(images, fps);
+  throw InputError("--fps " + exact_text(fps), "no camera of a drive has this rate",
+                   "give images per second, from 0.5 to 250");
+}
+
+std::optional<RightImages> kitti_right_images(const std::vector<fs::path>& left,
+                                              const fs::path& folder, const fs::path& calibration,
+                                              const std::string& left_projection,
+                                              const std::string& right_projection,
+                                              ImportReport& report) {
+  constexpr double kShortest_m = 0.05, kLongest_m = 3.0;  // a vehicle is no wider
+  std::error_code ignored;
+  if (!fs::is_directory(folder, ignored)) return std::nullopt;
+  const std::string name = folder.filename().string();
+  const CalibrationFile file = read_calibration_file(calibration);
+  const auto P0 = projection_row(file, left_projection),
+             P1 = projection_row(file, right_projection);
+  const auto leave_out = [&](const std::string& why) {
+    report.notes.push_back(folder.string() + " is left out: " + why);
+    return std::nullopt;
+  };
+  if (!P0 || !P1) {
+    return leave_out(calibration.filename().string() + " has no " + right_projection);
+  }
+  RightImages right;
+  right.baseline_m = P0->tx / P0->fx - P1->tx / P1->fx;
+  if (!(right.baseline_m >= kShortest_m && right.baseline_m <= kLongest_m)) {
+    return leave_out(right_projection + " is " + exact_text(right.baseline_m) +
+                     " m to the right of " + left_projection);
+  }
+  std::size_t there = 0;
+  for (const fs::path& image : left) {
+    const fs::path other = folder / image.filename();
+    const bool exists = fs::is_regular_file(other, ignored);
+    right.images.push_back(exists ? other : fs::path());
+    there += exists ? 1U : 0U;
+  }
+  if (there == 0) return leave_out("no image in it has the name of a left one");
+  report.notes.push_back(std::to_string(there) + " right images of " + std::to_string(left.size()) +
+                         ", " + fixed_text(right.baseline_m, 3) + " m beside the left ones");
+  return right;
+}
+
+}  // namespace oneac

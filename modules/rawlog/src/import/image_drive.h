@@ -1,0 +1,71 @@
+#pragma once
+
+#include "oneac/geometry/camera.h"
+#include "oneac/rawlog/import_drive.h"
+#include "oneac/rawlog/sensor_records.h"
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace oneac {
+
+/// The right images of a rectified pair.
+struct RightImages {
+  std::vector<std::filesystem::path> images;  ///< one for each left image; "": there is none
+  double baseline_m = 0.0;
+};
+
+/// Everything that an importer puts into a log.
+struct ImageDrive {
+  std::string label;
+  std::vector<std::filesystem::path> images;
+  std::vector<double> times_s;  ///< Unix times, one per image, increasing
+  PinholeCamera camera;
+  std::optional<RightImages> right;
+  Eigen::Isometry3d T_vehicle_cam = Eigen::Isometry3d::Identity();
+  MountConvention convention = MountConvention::optical;
+  std::vector<GpsRecord> gps;
+  std::vector<ImuRecord> imu;
+};
+
+/// Writes the drive in the order of its times and counts it.
+void write_drive(const ImageDrive& drive, const std::filesystem::path& log, bool copy_images,
+                 ImportReport& report);
+
+/// The calibration for images of one size: scaled, and said, where only its size differs.
+/// @param file_and_section  as of load_calibration()
+/// @throws InputError when it is that of images of another aspect
+[[nodiscard]] PinholeCamera calibration_for(const std::string& file_and_section,
+                                            const std::filesystem::path& image,
+                                            ImportReport& report);
+
+/// The same out of --calibration. @throws InputError when none is given
+[[nodiscard]] PinholeCamera given_calibration(const DriveImport& options,
+                                              const std::filesystem::path& image,
+                                              ImportReport& report);
+
+/// @throws InputError when it is none of a vehicle's camera
+void require_camera_height(double height_m);
+
+/// [m] above the road; 0, and said: nobody knows.
+[[nodiscard]] double height_above_road(const DriveImport& options, ImportReport& report);
+
+/// The mount of --mount-* at a height. @throws InputError for angles out of bounds
+[[nodiscard]] Eigen::Isometry3d mount_at(const MountAngles& mount, double height_m);
+
+/// Says which way the images go when their names in alphabetical order would go another.
+void note_order(const std::vector<std::filesystem::path>& images, ImportReport& report);
+
+/// Those of --fps. @throws InputError for a rate that no camera has
+[[nodiscard]] std::vector<double> stamps_of_fps(double fps, std::size_t images);
+
+/// The files of `folder` with the names of the left images, and the baseline between two
+/// projections "P0" and "P1" of a KITTI calibration file; none, with a note, where they do not fit.
+[[nodiscard]] std::optional<RightImages> kitti_right_images(
+    const std::vector<std::filesystem::path>& left, const std::filesystem::path& folder,
+    const std::filesystem::path& calibration, const std::string& left_projection,
+    const std::string& right_projection, ImportReport& report);
+
+}  // namespace oneac
