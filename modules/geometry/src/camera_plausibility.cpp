@@ -61,7 +61,48 @@ std::optional<std::string> aspect_fault(const PinholeCamera& camera) {
          " px differ by more than a quarter";
 }
 
+constexpr double kShortest_px = 1.0, kFurthest_px = 1e6;
+constexpr double kLeastStretch = 0.05, kMostStretch = 20.0;
+
+bool is_possible_focal(double focal) {
+  return focal >= kShortest_px && focal <= kFurthest_px;
+}
+
+/// Radius [-] of the circle about the axis that fits into the image; 0 without a size.
+double inner_radius(const PinholeCamera& camera) {
+  if (camera.width <= 0 || camera.height <= 0) return 0.0;
+  return 0.5 * std::min(camera.width / camera.fx, camera.height / camera.fy);
+}
+
+/// How much further from the axis the lens puts a point of this radius, and how much across it.
+bool is_possible_lens(const PinholeCamera& camera) {
+  const auto& [k1, k2, p1, p2, k3] = camera.distortion;
+  const double r = inner_radius(camera), r2 = r * r;
+  const double stretch = 1.0 + r2 * (k1 + r2 * (k2 + r2 * k3));
+  return stretch >= kLeastStretch && stretch <= kMostStretch && std::abs(p1) * r <= 1.0 &&
+         std::abs(p2) * r <= 1.0;
+}
+
+std::string short_text(double value) {
+  return significant_text(value, 6);
+}
+
 }  // namespace
+
+std::string impossible_camera(const PinholeCamera& camera) {
+  if (!is_possible_focal(camera.fx) || !is_possible_focal(camera.fy)) {
+    return "no camera has the focal lengths " + short_text(camera.fx) + " and " +
+           short_text(camera.fy) + " px";
+  }
+  if (!(std::abs(camera.cx) <= kFurthest_px) || !(std::abs(camera.cy) <= kFurthest_px)) {
+    return "no camera has its principal point at " + short_text(camera.cx) + ", " +
+           short_text(camera.cy) + " px";
+  }
+  if (is_possible_lens(camera)) return "";
+  std::string k;
+  for (const double value : camera.distortion) k += " " + short_text(value);
+  return "no lens has the distortion (k1 k2 p1 p2 k3)" + k;
+}
 
 std::vector<std::string> camera_faults(const PinholeCamera& camera) {
   const double width = camera.width, height = camera.height;

@@ -1,6 +1,8 @@
 #include "read/calibration_file.h"
 
 #include "oneac/base/error.h"
+#include "oneac/base/input_file.h"
+#include "oneac/base/number_text.h"
 
 #include <algorithm>
 #include <charconv>
@@ -111,6 +113,15 @@ PinholeCamera parse_sections(const SectionReader& reader) {
 PinholeCamera parse_kitti(const SectionReader& reader) {
   const auto P = reader.list(kKittiKey);
   if (P.size() != 12) reader.fail("it does not hold twelve numbers");
+  constexpr double kNone = 1e-6;  // of what a P of rectified images has no place for
+  const bool upper = std::abs(P[1]) <= kNone * std::abs(P[0]) && std::abs(P[4]) <= kNone &&
+                     std::abs(P[8]) <= kNone && std::abs(P[9]) <= kNone &&
+                     std::abs(P[10] - 1.0) <= kNone;
+  if (!upper) {
+    throw InputError(reader.file.path.string() + ": " + reader.name,
+                     "it has a skew, or is no K [I | t]: second number " + exact_text(P[1]),
+                     "give fx 0 cx a, 0 fy cy b, 0 0 1 c of rectified images with square axes");
+  }
   PinholeCamera camera;
   camera.fx = P[0];
   camera.cx = P[2];
@@ -126,6 +137,9 @@ bool is_projection_name(const std::string& name) {
 }  // namespace
 
 CalibrationFile read_calibration_file(const std::filesystem::path& path) {
+  if (const std::string fault = fault_of_file(path); !fault.empty() && fault != "no such file") {
+    throw InputError(path.string(), fault, "name a calibration file");
+  }
   std::ifstream stream(path);
   if (!stream)
     throw InputError(path.string(), "the calibration cannot be opened", "check its name");
