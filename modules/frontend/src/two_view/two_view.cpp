@@ -47,7 +47,9 @@ TwoViewEstimator::TwoViewEstimator(const FrontEndOptions& options,
 TwoView TwoViewEstimator::estimate(TrackedPair pair, const TwoViewPrior& prior) const {
   if (pair.standing) return standing(std::move(pair), prior.focal_px);
   TwoView result;
-  InitialiserResult found = initialise(pair, prior, result.estimate_ms);
+  CheckedAnswer answer = initialise(pair, prior, result.estimate_ms);
+  InitialiserResult& found = answer.result;
+  result.fault = std::move(answer.fault);
   result.status = step_status(found.status);
   result.inlier_count = found.inlier_count;
   result.focal_px = prior.focal_px;
@@ -63,12 +65,12 @@ TwoView TwoViewEstimator::estimate(TrackedPair pair, const TwoViewPrior& prior) 
   return result.status == StepStatus::kOk ? refined(std::move(result)) : result;
 }
 
-InitialiserResult TwoViewEstimator::initialise(const TrackedPair& pair, const TwoViewPrior& prior,
-                                               double& cpu_ms) const {
+CheckedAnswer TwoViewEstimator::initialise(const TrackedPair& pair, const TwoViewPrior& prior,
+                                           double& cpu_ms) const {
   const std::vector<AffineCorrespondence> acs = affine_parts(pair);
   const StageTimer timer(cpu_ms);
-  return initialiser_->estimate(
-      {acs, prior.R_level_cam, prior.focal_px, seed_ + prior.number, prior.motion});
+  return checked_answer(
+      *initialiser_, {acs, prior.R_level_cam, prior.focal_px, seed_ + prior.number, prior.motion});
 }
 
 TwoView TwoViewEstimator::refined(TwoView start) const {

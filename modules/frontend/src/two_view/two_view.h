@@ -3,7 +3,7 @@
 #include "oneac/features/correspondence.h"
 #include "oneac/frontend/frame_result.h"
 #include "oneac/geometry/relative_pose.h"
-#include "oneac/initialisers/relative_pose_initialiser.h"
+#include "oneac/initialisers/checked_answer.h"
 #include "oneac/refine/two_view.h"
 
 #include <Eigen/Core>
@@ -11,6 +11,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <optional>
+#include <string>
 #include <vector>
 
 namespace oneac {
@@ -39,6 +40,7 @@ struct TwoView {
   std::size_t inlier_count = 0;
   double focal_px = 1.0;                      ///< [px] of one normalised unit
   double estimate_ms = 0.0, refine_ms = 0.0;  ///< CPU time [ms]
+  std::string fault;  ///< of the initialiser's answer, which is not used; "" as a rule
 };
 
 /// Initialises, corrects for perspective, refines. Does not change from pair to pair.
@@ -50,8 +52,8 @@ class TwoViewEstimator {
   [[nodiscard]] TwoView estimate(TrackedPair pair, const TwoViewPrior& prior) const;
 
  private:
-  [[nodiscard]] InitialiserResult initialise(const TrackedPair& pair, const TwoViewPrior& prior,
-                                             double& cpu_ms) const;
+  [[nodiscard]] CheckedAnswer initialise(const TrackedPair& pair, const TwoViewPrior& prior,
+                                         double& cpu_ms) const;
   [[nodiscard]] TwoView refined(TwoView start) const;
 
   RelativePoseInitialiser::Ptr initialiser_;
