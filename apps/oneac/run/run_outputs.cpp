@@ -130,8 +130,9 @@ std::string about_lone_images(const DriveRecord& record) {
 
 void clear_of_earlier_run(const std::filesystem::path& folder) {
   for (const char* name : kResults) {
-    std::error_code absent;
-    std::filesystem::remove(replaced_file(folder / name), absent);
+    const std::filesystem::path file = replaced_file(folder / name);
+    std::error_code ignored;
+    if (std::filesystem::is_regular_file(file, ignored)) std::filesystem::remove(file, ignored);
   }
 }
 

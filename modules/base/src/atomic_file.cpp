@@ -39,8 +39,9 @@ fs::path replaced_file(const fs::path& path) {
     file = target.is_absolute() ? target : file.parent_path() / target;
   }
   const fs::file_status status = fs::status(file, error);
-  if (fs::is_directory(status)) fail(path, "cannot be written (a folder has its name)");
-  if (fs::exists(status) && !fs::is_regular_file(status)) {
+  const bool other =
+      fs::exists(status) && !fs::is_regular_file(status) && !fs::is_directory(status);
+  if (other) {
     fail(path, "cannot be written (a device, pipe or socket has its name)");
   }
   return file;

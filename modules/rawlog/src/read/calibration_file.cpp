@@ -117,7 +117,8 @@ PinholeCamera parse_kitti(const SectionReader& reader) {
   const bool upper = std::abs(P[1]) <= kNone * std::abs(P[0]) && std::abs(P[4]) <= kNone &&
                      std::abs(P[8]) <= kNone && std::abs(P[9]) <= kNone &&
                      std::abs(P[10] - 1.0) <= kNone;
-  if (!upper) {
+  const bool has_focal = P[0] > 0.0 && P[5] > 0.0;  // else that is what is said
+  if (has_focal && !upper) {
     throw InputError(reader.file.path.string() + ": " + reader.name,
                      "it has a skew, or is no K [I | t]: second number " + exact_text(P[1]),
                      "give fx 0 cx a, 0 fy cy b, 0 0 1 c of rectified images with square axes");

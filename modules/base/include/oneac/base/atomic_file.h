@@ -8,7 +8,7 @@
 namespace oneac {
 
 /// The file that writing to a path replaces: the path, or what it links to.
-/// @throws OutputError for what is no file and no link to one: a folder, a device, a pipe
+/// @throws OutputError for what a rename would replace in silence: a device, a pipe, a socket
 [[nodiscard]] std::filesystem::path replaced_file(const std::filesystem::path& path);
 
 /// Writes a file whole or not at all: into a temporary beside it, flushed, then renamed over it.
