@@ -26,7 +26,7 @@ struct VlfeatOptions {
   double edge_threshold = 10;    ///< [-] ratio of curvatures; Lowe's value
   int max_features = 3000;       ///< strongest DoG peaks kept; bounds the cost on busy images
   /// [Mpx] SIFT looks at no larger image, a larger one is shrunk for it: its scale space takes 270
-  /// bytes a pixel, so two images of that size 1.1 GB
+  /// bytes a pixel, 0.5 GB for an image of that size
   double sift_megapixels = 2.0;
 
   /// @throws std::invalid_argument naming field, value and bound
