@@ -44,7 +44,8 @@ std::string difference(const PluginStamp& theirs, const PluginStamp& ours) {
   if (theirs.version != ours.version) {
     return "was built for oneac " + text_of(theirs.version) + ", this is " + text_of(ours.version);
   }
-  for (std::size_t i = 0; i < PluginStamp::kFields; ++i) {
+  // The flags come last and are told first: sizes differ because of them.
+  for (std::size_t i = PluginStamp::kFields; i-- > 0;) {
     if (theirs.fields[i] == ours.fields[i]) continue;
     return std::string("was built with another ") + kPluginStampFields[i] + ": " +
            std::to_string(theirs.fields[i]) + ", this program has " +
