@@ -2,6 +2,39 @@
 # Nothing absolute is written: the tree may be moved as a whole.
 include(CMakePackageConfigHelpers)
 
+# Before the first rule: an install that would stop half-way, because only the program was built (as
+# apps/demo.sh does), writes nothing and says what to build.
+function(oneac_refuse_half_an_install)
+  install(CODE "include(\"${PROJECT_BINARY_DIR}/oneac_install_needs.cmake\")
+foreach(file IN LISTS oneac_install_needs)
+  if(NOT EXISTS \"\${file}\")
+    message(FATAL_ERROR \"not everything is built (\${file} is missing): run
+  cmake --build ${PROJECT_BINARY_DIR}
+and install again. Nothing was installed.\")
+  endif()
+endforeach()")
+endfunction()
+
+# Behind the last module: the files of all targets that are installed.
+function(oneac_list_what_install_needs)
+  oneac_collected(modules ONEAC_MODULES)
+  set(files $<TARGET_FILE:oneac>)
+  foreach(module IN LISTS modules)
+    get_target_property(kind oneac_${module} TYPE)
+    if(NOT kind STREQUAL INTERFACE_LIBRARY)
+      list(APPEND files $<TARGET_FILE:oneac_${module}>)
+    endif()
+  endforeach()
+  if(TARGET oneac_rivals)
+    list(APPEND files $<TARGET_FILE:oneac_rivals>)
+  endif()
+  if(TARGET oneac_manual)
+    list(APPEND files "${PROJECT_BINARY_DIR}/man/oneac.1")
+  endif()
+  file(GENERATE OUTPUT "${PROJECT_BINARY_DIR}/oneac_install_needs.cmake"
+       CONTENT "set(oneac_install_needs \"${files}\")\n")
+endfunction()
+
 # oneac_install_module(NAME LINKED...): the library, its headers, and what its users must find.
 function(oneac_install_module name)
   set_target_properties(oneac_${name} PROPERTIES EXPORT_NAME ${name})

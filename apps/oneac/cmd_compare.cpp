@@ -7,7 +7,9 @@
 
 #include "oneac/base/atomic_file.h"
 #include "oneac/base/error.h"
+#include "oneac/base/printable.h"
 #include "oneac/comparison/comparison.h"
+#include "oneac/comparison/method_faults.h"
 #include "oneac/comparison/plugin.h"
 
 #include <CLI/CLI.hpp>
@@ -46,6 +48,12 @@ std::string method_parameters(FrontEndOptions options) {
   return table.to_yaml(false);
 }
 
+std::vector<std::filesystem::path> plugins_of(const CompareFlags& flags) {
+  std::vector<std::filesystem::path> plugins(flags.plugins.begin(), flags.plugins.end());
+  if (flags.rivals) plugins.insert(plugins.begin(), find_plugin(kRivals));
+  return plugins;
+}
+
 CompareSettings settings_from(CompareFlags& flags) {
   RunOptions& options = flags.options;
   apply_settings(flags.parameter_files, flags.settings, options);
@@ -61,18 +69,22 @@ CompareSettings settings_from(CompareFlags& flags) {
   settings.trials = flags.trials;
   settings.seed = static_cast<std::uint64_t>(options.run.seed);
   settings.methods = plan_methods(flags.initialisers, flags.estimators);
+  settings.program = running_program();
+  for (const auto& plugin : plugins_of(flags)) {
+    settings.plugins.push_back(identity_of_plugin(plugin));
+  }
   settings.validate();
   return settings;
 }
 
-void load_plugins(const CompareFlags& flags) {
-  if (flags.rivals) load_plugin(find_plugin(kRivals));
-  for (const std::string& plugin : flags.plugins) load_plugin(plugin);
-}
-
 void tell(const CompareFlags& flags, const std::vector<std::string>& notes) {
   if (flags.quiet) return;
-  for (const std::string& note : notes) std::cerr << "oneac: " << note << '\n';
+  for (const std::string& note : notes) std::cerr << "oneac: " << printable(note) << '\n';
+}
+
+void add_method_faults(const ComparisonData& data, std::vector<std::string>& notes) {
+  const std::vector<std::string> faults = method_faults(data);
+  notes.insert(notes.end(), faults.begin(), faults.end());
 }
 
 void compare(CompareFlags& flags) {
@@ -94,10 +106,11 @@ void compare(CompareFlags& flags) {
   if (interrupted()) {
     notes.emplace_back("interrupted: run the same command again and it goes on from here");
   }
+  const ComparisonData data = merge_journals(settings, {journal.content()});
+  add_method_faults(data, notes);
   tell(flags, notes);
   // An interrupt wants the files soon: without pictures.
-  write_comparison(merge_journals(settings, {journal.content()}), settings, notes,
-                   interrupted() ? 0 : kPictures, flags.options.output);
+  write_comparison(data, settings, notes, interrupted() ? 0 : kPictures, flags.options.output);
   if (interrupted()) throw std::runtime_error("interrupted; what was computed is written");
   if (!damage.empty()) throw InputError("log", damage.front(), "");
 }
@@ -106,17 +119,16 @@ void merge(const CompareFlags& flags) {
   std::vector<JournalContent> journals;
   for (const auto& path : find_journals({flags.merge.begin(), flags.merge.end()})) {
     journals.push_back(read_journal(path));
+    if (journals.back().settings.empty()) journals.pop_back();  // not begun
+  }
+  if (journals.empty()) {
+    throw InputError("--merge", "the journals are empty", "run the shards first");
   }
   const CompareSettings settings = settings_of(journals.front());
   require_writable_folder(flags.options.output);
   const ComparisonData data = merge_journals(settings, journals);
-  std::vector<std::string> notes;
-  if (data.pairs.size() < data.pairs_planned || data.logs.size() < settings.logs.size()) {
-    notes.push_back("not complete: " + std::to_string(data.pairs.size()) + " of " +
-                    std::to_string(data.pairs_planned) + " pairs of " +
-                    std::to_string(data.logs.size()) + " of " +
-                    std::to_string(settings.logs.size()) + " logs");
-  }
+  std::vector<std::string> notes = missing_in(journals, data);
+  add_method_faults(data, notes);
   tell(flags, notes);
   write_comparison(data, settings, notes, kPictures, flags.options.output);
 }
@@ -131,7 +143,7 @@ void run(CompareFlags& flags) {
   if (!flags.logs.empty() && !flags.merge.empty()) {
     throw InputError("compare --merge", "takes folders, no logs", "leave the logs out");
   }
-  load_plugins(flags);
+  for (const auto& plugin : plugins_of(flags)) load_plugin(plugin);
   if (flags.merge.empty()) {
     compare(flags);
   } else {

@@ -1,10 +1,14 @@
 #include "commands.h"
 
+#include "oneac/base/error.h"
+#include "oneac/base/printable.h"
 #include "oneac/evaluation/evaluate.h"
 #include "oneac/evaluation/report.h"
 
 #include <CLI/CLI.hpp>
 
+#include <charconv>
+#include <cmath>
 #include <iostream>
 #include <memory>
 #include <string>
@@ -16,14 +20,31 @@ struct EvalArguments {
   std::string estimate;
   std::string reference;
   std::string alignment = "se3";
+  std::string offset;
+  double max_difference_s = 0.0;  // 0: not given
   bool pairs = false;
   bool json = false;
 };
 
+/// "estimate" or seconds.
+void take_offset(const std::string& text, EvaluationRequest& request) {
+  request.estimate_offset = text == "estimate";
+  if (text.empty() || request.estimate_offset) return;
+  const char* end = text.data() + text.size();
+  const auto [stop, error] = std::from_chars(text.data(), end, request.time.offset_s);
+  const bool good = error == std::errc() && stop == end && std::isfinite(request.time.offset_s);
+  if (!good) throw InputError("--offset " + text, "is no number", "give seconds, or estimate");
+}
+
 void evaluate(const EvalArguments& arguments) {
-  const EvaluationRequest request{arguments.estimate, arguments.reference,
-                                  alignment_from_name(arguments.alignment), arguments.pairs};
+  EvaluationRequest request{arguments.estimate, arguments.reference,
+                            alignment_from_name(arguments.alignment), arguments.pairs};
+  take_offset(arguments.offset, request);
+  if (arguments.max_difference_s > 0.0) request.time.max_difference_s = arguments.max_difference_s;
   const Evaluation evaluation = evaluate_files(request);
+  for (const std::string& note : evaluation.notes) {
+    std::cerr << "oneac: note: " << printable(note) << '\n';
+  }
   std::cout << (arguments.json ? format_json(evaluation, arguments.pairs)
                                : format_table(evaluation, arguments.pairs));
 }
@@ -36,8 +57,10 @@ void add_eval(CLI::App& program) {
   verb->add_option("ESTIMATE", arguments->estimate,
                    "relative_poses.csv (pairs), or a trajectory: .kitti, .tum, .txt of either")
       ->required();
-  verb->add_option("REFERENCE", arguments->reference,
-                   "true poses of the same body: KITTI poses (row = image of the log) or TUM")
+  verb->add_option(
+          "REFERENCE", arguments->reference,
+          "true poses of the same body: KITTI poses (row = image of the log), TUM, EuRoC or "
+          "4x4 matrices")
       ->required();
   verb->add_flag("--pairs", arguments->pairs,
                  "one line per pair before the summary; of a trajectory: its consecutive rows");
@@ -45,6 +68,13 @@ void add_eval(CLI::App& program) {
                    "what may be moved before positions are compared")
       ->check(CLI::IsMember({"none", "se3", "sim3"}))
       ->capture_default_str();
+  verb->add_option("--max-difference", arguments->max_difference_s,
+                   "seconds to the nearest row of the reference at most; without it 10 ms, and "
+                   "poses are interpolated between rows up to 0.25 s apart")
+      ->check(CLI::PositiveNumber);
+  verb->add_option("--offset", arguments->offset,
+                   "seconds to be added to the estimate's times, or: estimate (by the turns of "
+                   "both)");
   verb->add_flag("--json", arguments->json, "print JSON instead of a table");
   verb->callback([arguments] { evaluate(*arguments); });
 }

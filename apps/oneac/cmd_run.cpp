@@ -10,6 +10,9 @@
 
 #include "oneac/base/atomic_file.h"
 #include "oneac/base/error.h"
+#include "oneac/base/input_file.h"
+#include "oneac/base/printable.h"
+#include "oneac/comparison/plugin.h"
 
 #include <CLI/CLI.hpp>
 
@@ -27,6 +30,7 @@ struct RunFlags {
   RunOptions options;
   std::vector<std::string> parameter_files;
   std::vector<std::string> settings;
+  std::vector<std::string> plugins;
   bool print_params = false;
   bool no_progress = false;
   bool quiet = false;
@@ -50,8 +54,15 @@ void write_all(const DriveRecord& record, RunOptions& options, double wall_secon
       << (record.car_mask.empty() ? "\n" : ", mask.png\n");
 }
 
+/// Before the results of an earlier run are taken away: a mistyped name costs nobody a drive.
+void require_log(const std::string& log) {
+  const std::string fault = fault_of_file(log);
+  if (!fault.empty()) throw InputError(log, fault, "check the name of the log");
+}
+
 void run(RunFlags& flags) {
   RunOptions& options = flags.options;
+  for (const std::string& plugin : flags.plugins) load_plugin(plugin);
   apply_settings(flags.parameter_files, flags.settings, options);
   if (flags.print_params) {
     std::cout << options.table().to_yaml(true);
@@ -63,6 +74,8 @@ void run(RunFlags& flags) {
   if (options.log.empty()) throw InputError("run", "no rawlog given", "oneac run LOG -o DIR");
   if (options.output.empty()) throw InputError("run", "no output folder given", "add -o DIR");
   require_writable_folder(options.output);
+  require_log(options.log);
+  clear_of_earlier_run(options.output);
   catch_interrupts();
   const auto gui = flags.gui ? std::make_unique<RunGui>() : nullptr;
   const auto start = std::chrono::steady_clock::now();
@@ -71,7 +84,8 @@ void run(RunFlags& flags) {
   const DriveRecord record = run_drive(options, observer);
   const std::chrono::duration<double> wall = std::chrono::steady_clock::now() - start;
   if (!options.run.quiet) {
-    for (const std::string& note : notes_about(record)) std::cerr << "oneac: " << note << '\n';
+    for (const std::string& note : notes_about(record))
+      std::cerr << "oneac: " << printable(note) << '\n';
   }
   fail_if_empty(record, options.log);
   write_all(record, options, wall.count());
@@ -92,6 +106,8 @@ void add_run(CLI::App& program) {
       ->allow_extra_args(false);
   add_key(*verb, "--initialiser", "front_end.initialiser", flags->settings,
           "method of the relative pose");
+  verb->add_option("--plugin", flags->plugins, "library with initialisers; may be repeated")
+      ->allow_extra_args(false);
   add_selection(*verb, flags->settings);
   add_key(*verb, "--camera-height", "front_end.camera_height", flags->settings,
           "metres of the lens above the road; without it the log's, if it tells one");

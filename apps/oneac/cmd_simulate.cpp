@@ -106,7 +106,7 @@ void validate(const SimulationOptions& options) {
   try {
     options.validate();
   } catch (const std::invalid_argument& error) {
-    throw InputError("simulate", error.what(), "see oneac simulate --help");
+    throw InputError("simulate", in_words_of_flags(error.what()), "see oneac simulate --help");
   }
 }
 
@@ -122,9 +122,10 @@ void simulate(const SimulateArguments& arguments) {
   RecordedDrive files;
   {
     ProgressBar bar(!arguments.no_progress);
+    bar.expect(simulator.size());
     drive.keep_going = [&](std::size_t done) {
       written = done;
-      bar.update(static_cast<double>(done) / static_cast<double>(simulator.size()), done);
+      bar.update(done);
       return !interrupted();
     };
     files = record_drive(drive, arguments.folder);

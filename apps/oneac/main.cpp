@@ -1,4 +1,5 @@
 #include "commands.h"
+#include "terminal/usage.h"
 
 #include "oneac/base/error.h"
 #include "oneac/base/version.h"
@@ -26,15 +27,12 @@ int main(int argc, char** argv) {
     if (std::cout.flush()) return 0;
     throw std::runtime_error("standard output cannot be written");
   } catch (const CLI::ParseError& error) {
-    return program.exit(error) == 0 ? 0 : 2;
+    return oneac::app::answer_to(error, program, {argv + 1, argv + argc});
   } catch (const oneac::InputError& error) {
-    std::cerr << "oneac: " << error.what() << '\n';
-    return 2;
+    return oneac::app::end_with(error.what(), 2);
   } catch (const std::invalid_argument& error) {  // misuse that a flag led to
-    std::cerr << "oneac: " << error.what() << '\n';
-    return 2;
+    return oneac::app::end_with(error.what(), 2);
   } catch (const std::exception& error) {
-    std::cerr << "oneac: " << error.what() << '\n';
-    return 1;
+    return oneac::app::end_with(error.what(), 1);
   }
 }

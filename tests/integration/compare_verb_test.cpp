@@ -122,6 +122,7 @@ TEST_F(CompareVerb, SaysThatAShardIsMissing) {
       oneac_program({"compare", "--merge", even.string(), "-o", (scratch() / "merged").string()});
   EXPECT_EQ(result.exit_code, 0);
   EXPECT_NE(result.err.find("not complete: 4 of 7 pairs"), std::string::npos) << result.err;
+  EXPECT_NE(result.err.find("no journal of shard 1/2"), std::string::npos) << result.err;
 }
 
 TEST_F(CompareVerb, GoesOnWhereItWasInterrupted) {

@@ -16,6 +16,17 @@ build_against_moved() {
   expect_code 0
 }
 
+case_name "installs nothing where only the program was built"
+needs="$build/oneac_install_needs.cmake"
+[ -s "$needs" ] || fail "no list of what an install needs"
+archive=$(tr ';"' '\n\n' <"$needs" | grep liboneac_base.a)
+mv "$archive" "$archive.away"
+run cmake --install "$build" --prefix "$scratch/half"
+mv "$archive.away" "$archive"
+expect_code 1
+expect_output "cmake --build"
+[ ! -e "$scratch/half" ] || fail "installed half of it"
+
 case_name "installs into a prefix, which then moves"
 run cmake --install "$build" --prefix "$scratch/first"
 expect_code 0

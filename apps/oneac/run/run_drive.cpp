@@ -35,6 +35,25 @@ VehicleReference read_ahead(const RunOptions& options) {
 // [s] speeds are handed over so far ahead of the images: the fix behind a moment is known, too.
 constexpr double kLookAhead = 1.5;
 
+/// Images that will be processed, by a pass over the log that decodes none; as many as were read
+/// where it is damaged or interrupted.
+std::size_t count_images(const SourceOptions& options) {
+  std::size_t count = 0;
+  try {
+    RawlogSource source(options);
+    for (double last = -std::numeric_limits<double>::infinity(); !interrupted();) {
+      const auto ticket = source.next();
+      if (!ticket) break;
+      if (!(ticket->time_s > last)) continue;
+      last = ticket->time_s;
+      ++count;
+    }
+  } catch (const InputError&) {
+    return count;  // the run itself says what is wrong
+  }
+  return count;
+}
+
 /// Hands the front-end the speeds of the log, in order.
 class SpeedFeeder {
  public:
@@ -60,8 +79,9 @@ class Drive {
         source_(source_options(options)),
         front_end_(front_end_options(options)),
         sensors_(read_ahead(options)),
-        progress_(options.run.progress && !options.run.quiet) {
+        progress_(options.run.progress && !options.run.quiet, "frames") {
     feed_accelerations();
+    if (progress_.is_shown()) progress_.expect(count_images(source_options(options)));
   }
 
   DriveRecord run() && {
@@ -72,6 +92,7 @@ class Drive {
       ordered_pipeline(next, prepare, process, options_.run.threads);
     } catch (const InputError& error) {
       record_.failure = error.what();
+      read_to_the_end();
     }
     finish();
     return std::move(record_);
@@ -85,17 +106,43 @@ class Drive {
   }
 
   void feed_accelerations() {
+    record_.tilt_source = options_.front_end.tilt.source;
+    std::size_t felt = 0;
     for (const ImuSample& sample : sensors_.imu) {
       if (!sample.acceleration) continue;
+      ++felt;
       const auto yaw_rate =
           sample.angular_rate ? std::optional(sample.angular_rate->z()) : std::nullopt;
       front_end_.add_acceleration(sample.time_s, *sample.acceleration, yaw_rate);
+    }
+    if (record_.tilt_source != "imu" || felt > 0) return;
+    record_.tilt_source = "log";
+    record_.tilt_fallback =
+        "front_end.tilt.source is imu, but the log holds no acceleration: the tilt of its sensor "
+        "pose is used";
+  }
+
+  /// Behind an image that stopped the run: how far the threads had read ahead changes no count.
+  void read_to_the_end() {
+    try {
+      while (!source_failed_ && next()) continue;
+    } catch (const InputError&) {
+      return;  // the first fault is the one to tell
+    }
+  }
+
+  std::optional<FrameTicket> next_of_source() {
+    try {
+      return source_.next();
+    } catch (const InputError&) {
+      source_failed_ = true;
+      throw;
     }
   }
 
   std::optional<FrameTicket> next() {
     while (!interrupted()) {
-      auto ticket = source_.next();
+      auto ticket = next_of_source();
       if (!ticket || ticket->time_s > last_time_) {
         if (ticket) last_time_ = ticket->time_s;
         return ticket;
@@ -127,7 +174,7 @@ class Drive {
     record_.tilt = front_end_.tilt();
     if (is_first) record_.given_tilt = record_.tilt;
     if (observer_) observer_({image, front_end_.correspondences(), record_});
-    progress_.update(source_.progress(), record_.frames.size());
+    progress_.update(record_.frames.size());
     return !interrupted();
   }
 
@@ -165,6 +212,7 @@ class Drive {
   const VehicleReference sensors_;
   SpeedFeeder speeds_{sensors_.speeds};
   ProgressBar progress_;
+  bool source_failed_ = false;
   double last_time_ = -std::numeric_limits<double>::infinity();
   DriveRecord record_;
 };

@@ -3,6 +3,7 @@
 #include "oneac/base/error.h"
 #include "oneac/initialisers/yaml_parameters.h"
 
+#include <algorithm>
 #include <charconv>
 #include <stdexcept>
 
@@ -52,6 +53,12 @@ double angle_of(const char* key, const std::string& text) {
   if (error == std::errc{} && stop == end) return value;
   throw InputError("parameters", std::string("source.") + key + " = '" + text + "' is no number",
                    "give degrees");
+}
+
+/// "window.fixed = 9, …" as whoever typed it calls it: front_end.window.fixed.
+std::string with_full_key(const std::string& fault, const ParameterTable& table) {
+  const auto end = std::min(fault.find(' '), fault.size());
+  return table.full_key(fault.substr(0, end)) + fault.substr(end);
 }
 
 /// RunParameters without what cannot change a result.
@@ -113,16 +120,18 @@ std::string RunOptions::result_parameters() {
   return table.to_yaml(true);
 }
 
-void RunOptions::validate() const {
+void RunOptions::validate() {
   source.for_log(log).validate();
   try {
+    table().check_bounds();
     front_end.validate();
     if (run.threads < 1) {
       throw std::invalid_argument("run.threads = " + std::to_string(run.threads) +
                                   ", must be at least 1");
     }
   } catch (const std::invalid_argument& error) {
-    throw InputError("parameters", error.what(), "correct it in --params or --set");
+    throw InputError("parameters", with_full_key(error.what(), table()),
+                     "correct it in --params or --set");
   }
 }
 

@@ -52,7 +52,7 @@ struct RunOptions {
   /// The effective parameters that results depend on, as YAML.
   [[nodiscard]] std::string result_parameters();
   /// @throws InputError naming key, value and bound
-  void validate() const;
+  void validate();
 };
 
 /// Applies parameter files, then "key=value" settings. @throws InputError

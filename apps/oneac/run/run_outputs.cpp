@@ -9,6 +9,7 @@
 #include "oneac/report/table.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <stdexcept>
 #include <system_error>
@@ -112,17 +113,57 @@ std::string about_steps_without_metres(const DriveRecord& record) {
   return text;
 }
 
-/// Nothing learned: none, and none of a run before.
-void write_mask(const GreyImage& mask, const std::filesystem::path& file) {
-  std::error_code absent;
-  if (mask.empty()) {
-    std::filesystem::remove(file, absent);
-  } else {
-    write_file_atomically(file, png_of(mask.view()));
+/// Empty when every answer of the initialiser could be used.
+std::string about_faulty_answers(const DriveRecord& record) {
+  std::size_t faulty = 0;
+  std::string first;
+  for (const FrameResult& frame : record.frames) {
+    if (!frame.step || frame.step->fault.empty() || ++faulty > 1) continue;
+    first = "images " + std::to_string(frame.step->index1) + "-" +
+            std::to_string(frame.step->index2) + ": " + frame.step->fault;
   }
+  if (faulty == 0) return "";
+  return std::to_string(faulty) + " answers of the initialiser cannot be used (first: " + first +
+         ")";
+}
+
+/// Every name that a run may write.
+constexpr std::array<const char*, 15> kResults{"trajectory_camera.kitti",
+                                               "trajectory_camera.tum",
+                                               "trajectory_vehicle.tum",
+                                               "relative_poses.csv",
+                                               "covariance.csv",
+                                               "tilt.csv",
+                                               "timings.csv",
+                                               "keyframes.tum",
+                                               "graph.g2o",
+                                               "map.simplemap",
+                                               "points.ply",
+                                               "mask.png",
+                                               "params.yaml",
+                                               "summary.json",
+                                               "report.html"};
+
+/// Images that have no right one, where the scale comes of stereo.
+std::string about_lone_images(const DriveRecord& record) {
+  const SourceReport& source = record.source;
+  if (record.scale_source != "stereo" || source.first_lone.empty()) return "";
+  const std::size_t frames = record.frames.size();
+  const std::size_t lone = frames - std::min(frames, source.pairs_delivered);
+  return std::to_string(lone) + " of " + std::to_string(frames) +
+         " images have no right image (first: " + source.first_lone +
+         "); their lengths come of the motion before and after";
 }
 
 }  // namespace
+
+void clear_of_earlier_run(const std::filesystem::path& folder) {
+  for (const char* name : kResults) {
+    const std::filesystem::path file = replaced_file(folder / name);
+    std::error_code ignored;
+    if (std::filesystem::is_regular_file(file, ignored)) std::filesystem::remove(file, ignored);
+  }
+}
 
 void write_drive(const DriveRecord& record, const std::filesystem::path& folder) {
   const Trajectory camera = record.camera_trajectory();
@@ -134,7 +175,9 @@ void write_drive(const DriveRecord& record, const std::filesystem::path& folder)
   write_file_atomically(folder / "covariance.csv", format_covariances(record.covariances()));
   write_file_atomically(folder / "tilt.csv", format_tilts(record.frames));
   if (!record.keyframes.empty()) write_map(record, folder);
-  write_mask(record.car_mask, folder / "mask.png");
+  if (!record.car_mask.empty()) {
+    write_file_atomically(folder / "mask.png", png_of(record.car_mask.view()));
+  }
   write_file_atomically(folder / "timings.csv", format_timings(record.timings()));
 }
 
@@ -166,6 +209,8 @@ std::vector<std::string> notes_about(const DriveRecord& record) {
     notes.push_back(std::to_string(record.out_of_order) +
                     " images do not lie after the one before in time and were left out");
   }
+  if (const std::string lone = about_lone_images(record); !lone.empty()) notes.push_back(lone);
+  if (!record.tilt_fallback.empty()) notes.push_back(record.tilt_fallback);
   if (const std::string gps = gps_beside_images(record); !gps.empty()) notes.push_back(gps);
   if (!source.calibration_scaled.empty()) notes.push_back(source.calibration_scaled);
   notes.insert(notes.end(), record.setup_faults.begin(), record.setup_faults.end());
@@ -182,6 +227,9 @@ std::vector<std::string> notes_about(const DriveRecord& record) {
     if (std::string text = about_steps_without_metres(record); !text.empty()) {
       notes.push_back(std::move(text));
     }
+  }
+  if (const std::string faulty = about_faulty_answers(record); !faulty.empty()) {
+    notes.push_back(faulty);
   }
   const auto predicted =
       std::count_if(record.frames.begin(), record.frames.end(), [](const FrameResult& frame) {

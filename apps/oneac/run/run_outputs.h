@@ -8,6 +8,10 @@
 
 namespace oneac::app {
 
+/// Takes the files of an earlier run out of the folder: it holds those of one run only. What no run
+/// writes stays. @throws OutputError naming what has the name of a result and is no file
+void clear_of_earlier_run(const std::filesystem::path& folder);
+
 /// Writes the trajectories, relative_poses.csv, covariance.csv, tilt.csv, timings.csv, where there
 /// are keyframes the map, where something was learned of the car mask.png; each whole or not at
 /// all.

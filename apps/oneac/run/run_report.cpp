@@ -28,7 +28,7 @@ std::string value_text(const Json& value) {
   if (value.is_number_float()) return significant_text(value.get<double>(), kDigits);
   if (value.is_null()) return "–";
   if (value.is_boolean()) return value.get<bool>() ? "yes" : "no";
-  return value.dump();
+  return value.dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 
 std::string words(std::string key) {

@@ -1,15 +1,17 @@
 #include "run_summary.h"
 
+#include "gps_lag.h"
+
 #include "oneac/base/number_text.h"
 #include "oneac/base/version.h"
 #include "oneac/evaluation/report.h"
 #include "oneac/geometry/angles.h"
+#include "oneac/rawlog/log_neighbours.h"
 
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
 #include <fstream>
 #include <thread>
 #include <vector>
@@ -18,16 +20,9 @@ namespace oneac::app {
 namespace {
 
 using Json = nlohmann::ordered_json;
-namespace fs = std::filesystem;
 
 std::string find_reference(const RunOptions& options) {
-  if (!options.run.reference.empty()) return options.run.reference;
-  const fs::path log(options.log);
-  const fs::path beside = log.parent_path() / (log.stem().string() + "_poses.txt");
-  for (const fs::path& candidate : {beside, log.parent_path() / "poses.txt"}) {
-    if (fs::is_regular_file(candidate)) return candidate.string();
-  }
-  return "";
+  return options.run.reference.empty() ? poses_beside(options.log) : options.run.reference;
 }
 
 /// Frames [first, last] whose times the GPS covers, so that nothing is extrapolated.
@@ -212,6 +207,7 @@ RunEvaluation evaluate_record(const DriveRecord& record, const RunOptions& optio
                      metric_word(record) == "none" ? Alignment::kSim3 : Alignment::kSe3);
   }
   evaluation.against_gps = compare_with_gps(record);
+  evaluation.gps_lag_s = lag_of_gps(record.vehicle_trajectory(), record.source.reference);
   return evaluation;
 }
 
@@ -227,10 +223,11 @@ std::string summary_json(const DriveRecord& record, const RunEvaluation& evaluat
   json["scale_source"] = options.front_end.scale.source;
   json["scale_uncertainty"] =
       std::isfinite(record.scale_uncertainty) ? Json(record.scale_uncertainty) : Json(nullptr);
-  json["tilt_source"] = options.front_end.tilt.source;
+  json["tilt_source"] = record.tilt_source;
   json["car_mask_share"] = record.car_mask_share();
   json["car_mask_refused"] = record.car_mask_refused;
   json["setup_faults"] = record.setup_faults;
+  json["tilt_source_asked_for"] = options.front_end.tilt.source;
   json["counts"] = counts_json(record);
   json["camera"] = camera_json(record);
   json["path_length"] = path_length(record.camera_trajectory().poses);
@@ -243,9 +240,10 @@ std::string summary_json(const DriveRecord& record, const RunEvaluation& evaluat
     reference["errors"] = Json::parse(format_json(*evaluation.against_poses, false));
   }
   if (evaluation.against_gps) reference["gps"] = gps_json(*evaluation.against_gps);
+  if (evaluation.gps_lag_s) reference["gps"]["lag_s"] = *evaluation.gps_lag_s;
   json["reference"] = reference;
   json["timing"] = timing_json(record, options, wall_seconds);
-  return json.dump(2) + "\n";
+  return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
 std::string summary_text(const DriveRecord& record, const RunEvaluation& evaluation) {
@@ -266,6 +264,7 @@ std::string summary_text(const DriveRecord& record, const RunEvaluation& evaluat
     text += "against " + evaluation.reference_file + ":\n";
     text += format_table(*evaluation.against_poses, false);
   }
+  if (evaluation.gps_lag_s) text += about_lag(*evaluation.gps_lag_s);
   if (evaluation.against_gps) {
     const GpsComparison& gps = *evaluation.against_gps;
     if (gps.heading_change) {

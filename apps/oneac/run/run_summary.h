@@ -23,6 +23,7 @@ struct RunEvaluation {
   std::string reference_file;  ///< "" when there is none
   std::optional<Evaluation> against_poses;
   std::optional<GpsComparison> against_gps;
+  std::optional<double> gps_lag_s;  ///< see lag_of_gps
 };
 
 /// Compares with --reference, else with poses found beside the log (`<base>_poses.txt`,

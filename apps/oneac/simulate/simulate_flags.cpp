@@ -2,8 +2,11 @@
 
 #include "oneac/simulation/hard_drives.h"
 
+#include <algorithm>
+#include <array>
 #include <map>
 #include <string>
+#include <string_view>
 
 namespace oneac::app {
 namespace {
@@ -111,7 +114,48 @@ void add_scene_flags(CLI::App& verb, SimulationOptions& options) {
       ->capture_default_str();
 }
 
+struct NamedFlag {
+  const char *field, *flag;
+};
+/// Of SimulationOptions; those that no flag sets are left out.
+constexpr std::array<NamedFlag, 25> kFlags{{{"frames", "--frames"},
+                                            {"width_px", "--width"},
+                                            {"height_px", "--height"},
+                                            {"focal_px", "--focal"},
+                                            {"fps", "--fps"},
+                                            {"baseline_m", "--baseline"},
+                                            {"image_noise", "--noise"},
+                                            {"camera_height_m", "--camera-height"},
+                                            {"camera_tilt_deg", "--tilt-deg"},
+                                            {"camera_roll_deg", "--mount-roll"},
+                                            {"camera_yaw_deg", "--mount-yaw"},
+                                            {"speed_mps", "--speed"},
+                                            {"stop_s", "--stop"},
+                                            {"suspension_pitch_deg", "--suspension-pitch"},
+                                            {"suspension_roll_deg", "--suspension-roll"},
+                                            {"slope_percent", "--slope"},
+                                            {"dark_from_s", "--dark-from"},
+                                            {"dark_s", "--dark"},
+                                            {"gps_noise_m", "--gps-noise"},
+                                            {"truck_gap_m", "--truck-gap"},
+                                            {"truck_gap_swing_m", "--truck-gap-swing"},
+                                            {"bonnet_share", "--bonnet"},
+                                            {"rolling_shutter_s", "--rolling-shutter"},
+                                            {"traffic", "--traffic"},
+                                            {"route", "--route"}}};
+
 }  // namespace
+
+std::string in_words_of_flags(const std::string& fault) {
+  constexpr std::string_view kStruct = "SimulationOptions.";
+  if (fault.compare(0, kStruct.size(), kStruct) != 0) return fault;
+  const auto end = std::min(fault.find(' '), fault.size());
+  const std::string field = fault.substr(kStruct.size(), end - kStruct.size());
+  for (const NamedFlag& named : kFlags) {
+    if (field == named.field) return named.flag + fault.substr(end);
+  }
+  return fault;
+}
 
 void add_simulation_flags(CLI::App& verb, SimulationOptions& options) {
   add_hard(verb, options);

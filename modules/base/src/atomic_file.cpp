@@ -22,14 +22,34 @@ fs::path temporary_beside(const fs::path& path) {
   return temporary;
 }
 
+constexpr int kMostLinks = 40;  // Linux follows as many
+
 [[noreturn]] void fail(const fs::path& path, const std::string& fault) {
   throw OutputError(path.string(), fault, "free some space or choose another output folder");
 }
 
 }  // namespace
 
+fs::path replaced_file(const fs::path& path) {
+  fs::path file = path;
+  std::error_code error;
+  for (int links = 0; fs::is_symlink(fs::symlink_status(file, error)); ++links) {
+    const fs::path target = fs::read_symlink(file, error);
+    if (error || links == kMostLinks) fail(path, "cannot be written (links without an end)");
+    file = target.is_absolute() ? target : file.parent_path() / target;
+  }
+  const fs::file_status status = fs::status(file, error);
+  const bool other =
+      fs::exists(status) && !fs::is_regular_file(status) && !fs::is_directory(status);
+  if (other) {
+    fail(path, "cannot be written (a device, pipe or socket has its name)");
+  }
+  return file;
+}
+
 void write_file_atomically(const fs::path& path, std::string_view content) {
-  const fs::path temporary = temporary_beside(path);
+  const fs::path file = replaced_file(path);
+  const fs::path temporary = temporary_beside(file);
   std::error_code ignored;
   {
     std::ofstream out(temporary, std::ios::binary | std::ios::trunc);
@@ -43,7 +63,7 @@ void write_file_atomically(const fs::path& path, std::string_view content) {
     }
   }
   std::error_code error;
-  fs::rename(temporary, path, error);
+  fs::rename(temporary, file, error);
   if (error) {
     fs::remove(temporary, ignored);
     fail(path, "cannot be put in place (" + error.message() + ")");
@@ -59,10 +79,11 @@ void write_file_atomically(const fs::path& path,
 
 void require_writable_folder(const fs::path& folder) {
   const std::string cure = "choose another folder with -o";
-  std::error_code error;
-  fs::create_directories(folder, error);
-  if (!fs::is_directory(folder)) {
-    throw InputError(folder.string(), "output folder cannot be made", cure);
+  std::error_code error, reason;
+  fs::create_directories(folder, reason);
+  if (!fs::is_directory(folder, error)) {
+    const std::string why = reason ? " (" + reason.message() + ")" : "";
+    throw InputError(folder.string(), "output folder cannot be made" + why, cure);
   }
   const fs::path probe = temporary_beside(folder / "probe");
   const bool writable = static_cast<bool>(std::ofstream(probe));

@@ -1,15 +1,19 @@
 #include "oneac/base/error.h"
 
-#include <algorithm>
+#include "oneac/base/printable.h"
 
 namespace oneac {
 namespace {
 
+// [byte] what a person reads of a part; a path may have 4096.
+constexpr std::size_t kLongestPart = 1000;
+
 std::string one_line(const std::string& where, const std::string& fault, const std::string& cure) {
-  std::string line = where + ": " + fault;
-  if (!cure.empty()) line += "; " + cure;
-  std::replace_if(
-      line.begin(), line.end(), [](char c) { return c == '\n' || c == '\r'; }, ' ');
+  const auto part = [](const std::string& text) {
+    return shortened(printable(text), kLongestPart);
+  };
+  std::string line = part(where) + ": " + part(fault);
+  if (!cure.empty()) line += "; " + part(cure);
   return line;
 }
 

@@ -2,6 +2,8 @@
 
 #include "oneac/base/nearest_name.h"
 #include "oneac/base/number_text.h"
+#include "oneac/base/printable.h"
+#include "oneac/base/require.h"
 
 #include <algorithm>
 #include <charconv>
@@ -11,6 +13,8 @@
 
 namespace oneac {
 namespace {
+
+constexpr std::size_t kLongestValue = 60;  // [byte] in a message
 
 template <class Number>
 bool parse(const std::string& text, Number& value) {
@@ -122,6 +126,34 @@ std::string ParameterTable::to_yaml(bool comments) const {
     yaml += line + "\n";
   }
   return yaml;
+}
+
+void ParameterTable::check_bounds() const {
+  for (const Parameter& parameter : parameters_) {
+    const bool met = std::visit(
+        [&](auto* field) {
+          using Field = std::decay_t<decltype(*field)>;
+          if constexpr (std::is_same_v<Field, std::string>) {
+            return parameter.bound.holds(std::string_view(*field));
+          } else {
+            return parameter.bound.holds(static_cast<double>(*field));
+          }
+        },
+        parameter.target);
+    require(met, parameter.key, shortened(printable(value_text(parameter)), kLongestValue),
+            parameter.bound.text());
+  }
+}
+
+std::string ParameterTable::full_key(const std::string& name) const {
+  const std::string ending = "." + name;
+  for (const Parameter& parameter : parameters_) {
+    const std::string& key = parameter.key;
+    const bool ends = key.size() >= ending.size() &&
+                      key.compare(key.size() - ending.size(), ending.size(), ending) == 0;
+    if (key == name || ends) return key;
+  }
+  return name;
 }
 
 }  // namespace oneac

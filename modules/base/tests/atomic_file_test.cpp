@@ -4,6 +4,7 @@
 #include "oneac/test_support/temporary_folder.h"
 
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 
 #include <fstream>
 #include <iterator>
@@ -51,6 +52,35 @@ TEST(AtomicFile, NamesThePathThatCannotBeWritten) {
   } catch (const OutputError& error) {
     EXPECT_NE(std::string(error.what()).find(path.string()), std::string::npos) << error.what();
   }
+}
+
+TEST(AtomicFile, WritesThroughALinkAndLeavesIt) {
+  const TemporaryFolder folder;
+  std::filesystem::create_directory(folder.path() / "far");
+  std::filesystem::create_symlink("far/a.txt", folder.path() / "link");
+  write_file_atomically(folder.path() / "link", "first");  // dangling so far
+  write_file_atomically(folder.path() / "link", "second");
+  EXPECT_TRUE(std::filesystem::is_symlink(folder.path() / "link"));
+  EXPECT_EQ(content_of(folder.path() / "far" / "a.txt"), "second");
+}
+
+TEST(AtomicFile, ReplacesNothingButFiles) {
+  const TemporaryFolder folder;
+  ASSERT_EQ(::mkfifo((folder.path() / "pipe").c_str(), 0600), 0);
+  std::filesystem::create_symlink("/dev/null", folder.path() / "null");
+  std::filesystem::create_symlink("loop", folder.path() / "loop");
+  for (const char* name : {"pipe", "null", "loop", "."}) {
+    EXPECT_THROW(write_file_atomically(folder.path() / name, "x"), OutputError) << name;
+  }
+  EXPECT_TRUE(std::filesystem::is_fifo(folder.path() / "pipe"));
+  EXPECT_TRUE(std::filesystem::is_character_file("/dev/null"));
+}
+
+TEST(RequireWritableFolder, SaysWhyALoopOrALongNameIsNone) {
+  const TemporaryFolder folder;
+  std::filesystem::create_symlink("loop", folder.path() / "loop");
+  EXPECT_THROW(require_writable_folder(folder.path() / "loop"), InputError);
+  EXPECT_THROW(require_writable_folder(folder.path() / std::string(300, 'a')), InputError);
 }
 
 TEST(RequireWritableFolder, MakesMissingParents) {

@@ -55,5 +55,29 @@ TEST(OrderedPipeline, HandsAWorkersExceptionToTheCaller) {
                std::runtime_error);
 }
 
+// What the threads had prepared before a fault is not lost, at any number of them.
+TEST(OrderedPipeline, ConsumesEverythingBeforeAFaultAtAnyThreadCount) {
+  constexpr int kGood = 11;
+  for (const bool fault_is_in_map : {false, true}) {
+    for (const int threads : {1, 2, 4, 8, 16}) {
+      int given = 0, consumed = 0;
+      const auto next = [&]() -> std::optional<int> {
+        if (!fault_is_in_map && given == kGood) throw std::runtime_error("bad record");
+        return given++;
+      };
+      const auto map = [&](int i) {
+        if (fault_is_in_map && i == kGood) throw std::runtime_error("bad image");
+        return i;
+      };
+      const auto consume = [&](int i) {
+        EXPECT_EQ(i, consumed++);
+        return true;
+      };
+      EXPECT_THROW(ordered_pipeline(next, map, consume, threads), std::runtime_error);
+      EXPECT_EQ(consumed, kGood) << threads << " threads";
+    }
+  }
+}
+
 }  // namespace
 }  // namespace oneac

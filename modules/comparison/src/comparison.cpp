@@ -2,6 +2,8 @@
 
 #include "log_run.h"
 
+#include "oneac/base/error.h"
+
 namespace oneac {
 
 std::vector<std::string> run_comparison(const CompareSettings& settings, const Shard& shard,
@@ -15,7 +17,12 @@ std::vector<std::string> run_comparison(const CompareSettings& settings, const S
   for (std::size_t log = 0; log < settings.logs.size() && hooks.keep_going(); ++log) {
     internal::LogRun run(settings, log, hooks);
     if (!run.scan().damage.empty()) damage.push_back(run.scan().damage);
-    if (run.begin(journal)) run.run(methods, shard, journal, done);
+    if (!run.begin(journal)) continue;
+    try {
+      run.run(methods, shard, journal, done);
+    } catch (const InputError& error) {  // an image: what came before it is in the journal
+      damage.emplace_back(error.what());
+    }
   }
   return damage;
 }

@@ -1,7 +1,11 @@
 #include "log_run.h"
 
+#include "oneac/base/error.h"
+#include "oneac/base/printable.h"
 #include "oneac/base/thread_clock.h"
 #include "oneac/geometry/angles.h"
+#include "oneac/initialisers/checked_answer.h"
+#include "oneac/rawlog/log_neighbours.h"
 
 #include <algorithm>
 #include <set>
@@ -42,6 +46,7 @@ LogRun::LogRun(const CompareSettings& settings, std::size_t log, const CompareHo
 bool LogRun::begin(Journal& journal) {
   if (const LogRecord* known = journal.log(log_)) {
     record_ = *known;
+    require_same_images();
     prepare_reference();
     return true;
   }
@@ -49,6 +54,7 @@ bool LogRun::begin(Journal& journal) {
   record_.name = settings_.log_names()[log_];
   record_.images = scan_.images.size();
   record_.pairs = scan_.pairs();
+  record_.last_index = scan_.images.empty() ? 0 : scan_.images.back().index;
   if (!learn_tilt()) return false;
   prepare_reference();
   journal.add(record_);
@@ -71,6 +77,15 @@ void LogRun::run(const Methods& methods, const Shard& shard, Journal& journal, s
       });
 }
 
+void LogRun::require_same_images() const {
+  const std::size_t last = scan_.images.empty() ? 0 : scan_.images.back().index;
+  if (record_.images == scan_.images.size() && record_.last_index == last) return;
+  throw InputError(source_.log.string(),
+                   "has " + std::to_string(scan_.images.size()) + " images now, and had " +
+                       std::to_string(record_.images) + " when the journal was begun",
+                   "choose an empty folder");
+}
+
 bool LogRun::learn_tilt() {
   record_.tilt = settings_.tilt.tilt(scan_.T_vehicle_cam.linear());
   if (!settings_.tilt.refine) return hooks_.keep_going();
@@ -88,8 +103,9 @@ bool LogRun::learn_tilt() {
   std::map<std::size_t, PairAcs> learned;
   for_pairs([&](std::size_t ordinal) { return chosen.count(ordinal) > 0; },
             [&](const StreamPair& pair, const PairAcs& acs) {
-              return Learned{pair.ordinal, acs,
-                             method->estimate(input_of(acs, R_level_cam, settings_.seed))};
+              return Learned{
+                  pair.ordinal, acs,
+                  checked_answer(*method, input_of(acs, R_level_cam, settings_.seed)).result};
             },
             [&](Learned pair) {
               if (has_direction(pair.result.status)) translations.push_back(pair.result.pose.t);
@@ -104,9 +120,9 @@ bool LogRun::learn_tilt() {
 void LogRun::prepare_reference() {
   R_level_cam_ = levelling_rotation(record_.tilt);
   const std::string poses =
-      settings_.reference.empty() ? find_poses_beside(source_.log) : settings_.reference;
+      settings_.reference.empty() ? poses_beside(source_.log) : settings_.reference;
   if (!poses.empty()) {
-    record_.reference = poses;
+    record_.reference = printable(poses);
     reference_.emplace(read_trajectory(poses), scan_.images);
     return;
   }
@@ -139,7 +155,7 @@ PairRecord LogRun::estimate(const StreamPair& pair, const PairAcs& acs,
   record.truth = reference_->motion(pair.first->moment(), pair.second->moment());
   for (std::size_t m = 0; m < methods.size(); ++m) {
     // A call that does not count brings code and data into the caches.
-    static_cast<void>(methods[m]->estimate(input_of(acs, R_level_cam_, settings_.seed)));
+    static_cast<void>(checked_answer(*methods[m], input_of(acs, R_level_cam_, settings_.seed)));
     for (int trial = 0; trial < settings_.trials; ++trial) {
       record.results.push_back(timed(acs, *methods[m], trial));
       record.results.back().method = m;
@@ -153,13 +169,15 @@ MethodResult LogRun::timed(const PairAcs& acs, const RelativePoseInitialiser& me
   const InitialiserInput input =
       input_of(acs, R_level_cam_, settings_.seed + static_cast<std::uint64_t>(trial));
   MethodResult result;
-  InitialiserResult found;
+  CheckedAnswer answer;
   {
     const StageTimer timer(result.ms);
-    found = method.estimate(input);
+    answer = checked_answer(method, input);
   }
+  const InitialiserResult& found = answer.result;
   result.trial = trial;
-  result.status = to_string(found.status);
+  result.status = answer.fault.empty() ? to_string(found.status) : kInvalidAnswer;
+  result.fault = answer.fault;
   result.has_pose = found.status != PoseStatus::kTooFew;
   if (result.has_pose) result.pose = found.pose;
   result.inliers = found.inlier_count;

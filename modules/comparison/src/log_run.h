@@ -52,6 +52,7 @@ class LogRun {
         hooks_.threads);
   }
 
+  void require_same_images() const;
   [[nodiscard]] bool learn_tilt();
   void prepare_reference();
   void judge_gps();

@@ -4,6 +4,7 @@
 #include "oneac/comparison/pair_stream.h"
 #include "oneac/comparison/summary.h"
 #include "oneac/evaluation/pair_errors.h"
+#include "oneac/initialisers/checked_answer.h"
 
 #include <algorithm>
 #include <filesystem>
@@ -81,7 +82,9 @@ class LogDrawing {
     input.R_level_cam = levelling_rotation(log.tilt);
     input.focal_px = acs.camera.focal_px();
     input.seed = settings_.seed;
-    return overlay_of(source.load(second).image, acs, method_->estimate(input).inliers);
+    std::vector<bool> inliers = checked_answer(*method_, input).result.inliers;
+    inliers.resize(acs.acs.size());  // none without an answer
+    return overlay_of(source.load(second).image, acs, inliers);
   }
 
   const ComparisonData& data_;
@@ -118,7 +121,6 @@ std::vector<PairOverlay> draw_worst_pairs(const ComparisonData& data,
   if (data.pairs.empty()) return overlays;
   const std::size_t method = shown_method(data);
   const std::vector<std::size_t> worst = worst_pairs(data, method, count);
-  const LogDrawing drawing(data, settings, method);
   for (const LogRecord& log : data.logs) {
     std::vector<std::size_t> here;
     std::copy_if(worst.begin(), worst.end(), std::back_inserter(here),
@@ -126,6 +128,7 @@ std::vector<PairOverlay> draw_worst_pairs(const ComparisonData& data,
     // A merge may run where the logs are not.
     if (here.empty() || !std::filesystem::exists(settings.logs.at(log.log))) continue;
     try {
+      const LogDrawing drawing(data, settings, method);  // a merge may lack its plugin
       drawing.draw(log, here, overlays);
     } catch (const InputError&) {
       // The picture is an extra: the numbers of the pair are in the report all the same.

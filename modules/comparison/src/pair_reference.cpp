@@ -6,16 +6,6 @@
 #include <utility>
 
 namespace oneac {
-namespace fs = std::filesystem;
-
-std::string find_poses_beside(const fs::path& log) {
-  const fs::path named = log.parent_path() / (log.stem().string() + "_poses.txt");
-  for (const fs::path& candidate : {named, log.parent_path() / "poses.txt"}) {
-    if (fs::is_regular_file(candidate)) return candidate.string();
-  }
-  return "";
-}
-
 PairReference::PairReference(Trajectory poses, const std::vector<ImageMoment>& images)
     : poses_(std::move(poses)) {
   std::vector<double> times;

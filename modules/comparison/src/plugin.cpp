@@ -1,24 +1,85 @@
 #include "oneac/comparison/plugin.h"
 
 #include "oneac/base/error.h"
-#include "oneac/initialisers/relative_pose_initialiser.h"
+#include "oneac/base/input_file.h"
+#include "oneac/initialisers/plugin_stamp.h"
 
 #include <dlfcn.h>
 
+#include <cstring>
+#include <fstream>
+#include <iterator>
+#include <string>
+#include <string_view>
+
 namespace oneac {
+namespace {
+
 namespace fs = std::filesystem;
 
-void load_plugin(const fs::path& library) {
-  if (!fs::is_regular_file(library)) {
-    throw InputError(library.string(), "no such plugin library", "check the path after --plugin");
+constexpr const char* kRebuild =
+    "build it with oneac_plugin() against this oneac, with the compiler and flags of this oneac";
+
+/// The stamps of all files that the library was made of.
+std::vector<PluginStamp> stamps_in(const fs::path& library, const PluginStamp& ours) {
+  std::ifstream in(library, std::ios::binary);
+  const std::string bytes{std::istreambuf_iterator<char>(in), {}};
+  const std::string_view mark(ours.begin.data(), ours.begin.size());
+  std::vector<PluginStamp> stamps;
+  for (auto at = bytes.find(mark); at != std::string::npos; at = bytes.find(mark, at + 1)) {
+    if (bytes.size() - at < sizeof(PluginStamp)) break;
+    PluginStamp stamp;
+    std::memcpy(&stamp, bytes.data() + at, sizeof stamp);
+    if (stamp.end == ours.end) stamps.push_back(stamp);  // else a copy of the mark alone
   }
+  return stamps;
+}
+
+std::string text_of(const std::array<char, 24>& letters) {
+  return {letters.data(), ::strnlen(letters.data(), letters.size())};
+}
+
+/// "" where the two agree.
+std::string difference(const PluginStamp& theirs, const PluginStamp& ours) {
+  if (theirs.version != ours.version) {
+    return "was built for oneac " + text_of(theirs.version) + ", this is " + text_of(ours.version);
+  }
+  // The flags come last and are told first: sizes differ because of them.
+  for (std::size_t i = PluginStamp::kFields; i-- > 0;) {
+    if (theirs.fields[i] == ours.fields[i]) continue;
+    return std::string("was built with another ") + kPluginStampFields[i] + ": " +
+           std::to_string(theirs.fields[i]) + ", this program has " +
+           std::to_string(ours.fields[i]);
+  }
+  return "";
+}
+
+/// Before any code of the library runs: calling one that was built otherwise ends in a crash.
+void require_same_build(const fs::path& library) {
+  static constexpr PluginStamp kOurs = plugin_stamp(ONEAC_RELEASE);
+  const auto stamps = stamps_in(library, kOurs);
+  if (stamps.empty()) {
+    throw InputError(library.string(), "does not say which oneac it was built for", kRebuild);
+  }
+  for (const PluginStamp& stamp : stamps) {
+    const std::string fault = difference(stamp, kOurs);
+    if (!fault.empty()) throw InputError(library.string(), fault, kRebuild);
+  }
+}
+
+}  // namespace
+
+void load_plugin(const fs::path& library) {
+  if (const std::string fault = fault_of_file(library); !fault.empty()) {
+    throw InputError(library.string(), fault == "no such file" ? "no such plugin library" : fault,
+                     "check the path after --plugin");
+  }
+  require_same_build(library);
   const std::size_t before = initialiser_names().size();
   // An absolute path keeps dlopen from searching the system's folders. Never closed: MRPT's class
   // factory keeps pointers into it.
   if (::dlopen(fs::absolute(library).c_str(), RTLD_NOW | RTLD_LOCAL) == nullptr) {
-    std::string reason = ::dlerror();
-    for (char& letter : reason) letter = letter == '\n' ? ' ' : letter;
-    throw InputError(library.string(), "cannot be loaded (" + reason + ")",
+    throw InputError(library.string(), "cannot be loaded (" + std::string(::dlerror()) + ")",
                      "build it against this version of oneac");
   }
   if (initialiser_names().size() == before) {
@@ -31,7 +92,7 @@ fs::path find_plugin(const std::string& name) {
   const fs::path beside = fs::read_symlink("/proc/self/exe").parent_path();
   for (const fs::path& folder : {beside, beside.parent_path() / "lib" / "oneac"}) {
     fs::path candidate = folder / (name + ".so");
-    if (fs::is_regular_file(candidate)) return candidate;
+    if (fault_of_file(candidate).empty()) return candidate;
   }
   throw InputError(name + ".so", "is not beside the program nor in ../lib/oneac",
                    "build oneac with OpenCV and OpenGV, target " + name);

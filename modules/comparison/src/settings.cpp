@@ -3,7 +3,10 @@
 #include "record_json.h"
 
 #include "oneac/base/error.h"
+#include "oneac/base/input_file.h"
 #include "oneac/base/parameter_table.h"
+#include "oneac/base/printable.h"
+#include "oneac/base/version.h"
 
 #include <algorithm>
 #include <charconv>
@@ -19,6 +22,14 @@ bool read_number(const std::string& text, std::size_t& number) {
 }
 
 }  // namespace
+
+std::string running_program() {
+  return version() + ", build " + content_hash("/proc/self/exe");
+}
+
+std::string identity_of_plugin(const std::filesystem::path& library) {
+  return library.filename().string() + " " + content_hash(library);
+}
 
 std::string Shard::name() const {
   return std::to_string(index) + "of" + std::to_string(count);
@@ -47,7 +58,7 @@ std::vector<std::string> CompareSettings::log_names() const {
   for (const std::string& log : logs) {
     std::filesystem::path stem = std::filesystem::path(log).filename();
     while (stem.has_extension() && stem != stem.stem()) stem = stem.stem();
-    std::string name = stem.string();
+    std::string name = printable(stem.string());
     for (char& letter : name) {
       const bool plain = static_cast<unsigned char>(letter) > ' ' && letter != ',' && letter != '"';
       if (!plain) letter = '_';
@@ -68,7 +79,7 @@ std::vector<std::string> CompareSettings::method_labels() const {
 }
 
 std::string CompareSettings::fingerprint() const {
-  return internal::to_json(*this).dump();
+  return internal::text_of(internal::to_json(*this));
 }
 
 void CompareSettings::validate() const {

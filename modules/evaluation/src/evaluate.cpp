@@ -1,11 +1,13 @@
 #include "oneac/evaluation/evaluate.h"
 
 #include "oneac/base/error.h"
+#include "oneac/base/number_text.h"
 #include "oneac/evaluation/association.h"
 
 #include <algorithm>
 #include <stdexcept>
 #include <string>
+#include <utility>
 
 namespace oneac {
 namespace {
@@ -30,21 +32,33 @@ std::vector<double> distinct_times(const std::vector<RelativePoseRow>& rows) {
 /// Finds the reference row of an image by its time or, without times, by its index.
 class ReferenceRows {
  public:
-  ReferenceRows(const Trajectory& reference, const std::vector<RelativePoseRow>& rows)
-      : reference_(reference), tolerance_(time_tolerance(distinct_times(rows))) {}
+  ReferenceRows(const Trajectory& reference, const std::vector<RelativePoseRow>& rows,
+                const TimeAlignment& time)
+      : timed_(reference.has_times()),
+        at_rows_(timed_ ? resampled(reference, distinct_times(rows), time)
+                        : ResampledReference{reference, 0}) {}
 
   [[nodiscard]] const Eigen::Isometry3d* find(std::size_t index, double time) const {
-    if (reference_.has_times()) {
-      const auto row = nearest_row(reference_.times, time, tolerance_);
-      return row ? &reference_.poses[*row] : nullptr;
+    const Trajectory& reference = at_rows_.trajectory;
+    if (timed_) {
+      const auto row = nearest_row(reference.times, time, 0.0);
+      return row ? &reference.poses[*row] : nullptr;
     }
-    return index < reference_.poses.size() ? &reference_.poses[index] : nullptr;
+    return index < reference.poses.size() ? &reference.poses[index] : nullptr;
   }
+  [[nodiscard]] std::size_t interpolated() const { return at_rows_.interpolated; }
 
  private:
-  const Trajectory& reference_;
-  double tolerance_;
+  bool timed_;
+  ResampledReference at_rows_;
 };
+
+void note_interpolated(std::size_t interpolated, Evaluation& evaluation) {
+  if (interpolated == 0) return;
+  evaluation.notes.push_back(std::to_string(interpolated) +
+                             " frames lie between rows of the reference and are compared with the "
+                             "straight motion between them");
+}
 
 MatchedTrajectories matched_poses(const Trajectory& estimate, const Trajectory& reference,
                                   const std::vector<RowMatch>& matches) {
@@ -56,9 +70,24 @@ MatchedTrajectories matched_poses(const Trajectory& estimate, const Trajectory& 
   return matched;
 }
 
-std::vector<RowMatch> match_frames(const ProcessedFrames& frames, const Trajectory& reference) {
-  if (reference.has_times()) return match_by_time(frames.times, reference.times);
-  return match_by_index(frames.indices, reference.poses.size());
+/// Rows that belong together, and the reference that they name.
+struct Association {
+  std::vector<RowMatch> matches;
+  Trajectory reference;
+  std::size_t interpolated = 0;
+};
+
+Association match_times(const std::vector<double>& times, const Trajectory& reference,
+                        const TimeAlignment& time) {
+  ResampledReference at_times = resampled(reference, times, time);
+  auto matches = match_by_time(times, at_times.trajectory.times);
+  return {std::move(matches), std::move(at_times.trajectory), at_times.interpolated};
+}
+
+Association match_frames(const ProcessedFrames& frames, const Trajectory& reference,
+                         const TimeAlignment& time) {
+  if (reference.has_times()) return match_times(frames.times, reference, time);
+  return {match_by_index(frames.indices, reference.poses.size()), reference};
 }
 
 std::string poses_in(const Trajectory& trajectory) {
@@ -84,21 +113,71 @@ ProcessedFrames frames_beside(const EvaluationRequest& request, const Trajectory
                    "keep trajectory and pairs of the same run together");
 }
 
-std::vector<RowMatch> associate(const EvaluationRequest& request, const Trajectory& estimate,
-                                const Trajectory& reference) {
+Association associate(const EvaluationRequest& request, const Trajectory& estimate,
+                      const Trajectory& reference, const TimeAlignment& time) {
   if (estimate.has_times() && reference.has_times()) {
-    return match_by_time(estimate.times, reference.times);
+    return match_times(estimate.times, reference, time);
   }
   if (estimate.poses.size() == reference.poses.size()) {
-    return match_by_row(estimate.poses.size(), reference.poses.size());
+    return {match_by_row(estimate.poses.size(), reference.poses.size()), reference};
   }
-  return match_frames(frames_beside(request, estimate, reference), reference);
+  return match_frames(frames_beside(request, estimate, reference), reference, time);
 }
 
-[[noreturn]] void throw_nothing_in_common(const EvaluationRequest& request) {
+std::string span_of(const std::vector<double>& times) {
+  return fixed_text(times.front(), 3) + " to " + fixed_text(times.back(), 3) + " s";
+}
+
+[[noreturn]] void throw_nothing_in_common(const EvaluationRequest& request,
+                                          const std::vector<double>& times,
+                                          const Trajectory& reference) {
+  const std::string fault = "has no frame in common with " + request.reference.string();
+  if (times.empty() || !reference.has_times()) {
+    throw InputError(request.estimate.string(), fault, "name the reference of the same log");
+  }
   throw InputError(request.estimate.string(),
-                   "has no frame in common with " + request.reference.string(),
-                   "name the reference of the same log; times must be on one clock, to 10 ms");
+                   fault + " (" + span_of(times) + " against " + span_of(reference.times) + ")",
+                   "name the reference of the same log; give --offset S or --offset estimate for "
+                   "another clock, --max-difference S for rows further apart than 10 ms");
+}
+
+/// The offset that was asked for, found where it is to be estimated.
+TimeAlignment time_alignment(const EvaluationRequest& request, const Trajectory& estimate,
+                             const Trajectory& reference, Evaluation& evaluation) {
+  TimeAlignment time = request.time;
+  if (request.estimate_offset) {
+    const auto offset = estimated_offset(estimate, reference);
+    if (!offset) {
+      throw InputError("--offset estimate",
+                       "the turns of " + request.estimate.string() + " and " +
+                           request.reference.string() + " tell none",
+                       "both must have times and the same bends; give the offset in seconds");
+    }
+    time.offset_s = *offset;
+    evaluation.notes.push_back("offset " + fixed_text(*offset, 3) +
+                               " s, estimated by the turns of both: added to the estimate's times");
+  }
+  if (request.estimate_offset || time.offset_s != 0.0) evaluation.offset_s = time.offset_s;
+  return time;
+}
+
+Trajectory take_file(TrajectoryFile file, Evaluation& evaluation) {
+  evaluation.notes.insert(evaluation.notes.end(), file.notes.begin(), file.notes.end());
+  return std::move(file.trajectory);
+}
+
+/// The pairs one after the other; empty when they form no chain.
+Trajectory chained(const std::vector<RelativePoseRow>& rows) {
+  const auto frames = processed_frames(rows);
+  if (!frames) return {};
+  Trajectory trajectory{frames->times, {Eigen::Isometry3d::Identity()}};
+  for (const RelativePoseRow& row : rows) {
+    Eigen::Isometry3d T_2_1 = Eigen::Isometry3d::Identity();
+    T_2_1.linear() = row.T_2_1.R;
+    T_2_1.translation() = row.T_2_1.t;
+    trajectory.poses.push_back(trajectory.poses.back() * T_2_1.inverse());
+  }
+  return trajectory;
 }
 
 void add_pairs(const std::vector<RowMatch>& matches, const MatchedTrajectories& matched,
@@ -120,29 +199,39 @@ Evaluation evaluate_pairs_file(const EvaluationRequest& request) {
   if (rows.empty()) {
     throw InputError(request.estimate.string(), "has no pairs", "run on at least two frames");
   }
-  Evaluation evaluation = evaluate_pairs(rows, read_trajectory(request.reference));
-  if (evaluation.pairs.empty()) throw_nothing_in_common(request);
+  Evaluation asked;
+  const Trajectory reference = take_file(read_trajectory_file(request.reference), asked);
+  const TimeAlignment time = time_alignment(request, chained(rows), reference, asked);
+  Evaluation evaluation = evaluate_pairs(rows, reference, time);
+  if (evaluation.pairs.empty()) {
+    throw_nothing_in_common(request, distinct_times(rows), reference);
+  }
+  evaluation.offset_s = asked.offset_s;
+  evaluation.notes.insert(evaluation.notes.begin(), asked.notes.begin(), asked.notes.end());
   return evaluation;
 }
 
 Evaluation evaluate_trajectory_file(const EvaluationRequest& request) {
-  const Trajectory estimate = read_trajectory(request.estimate);
-  const Trajectory reference = read_trajectory(request.reference);
-  const auto matches = associate(request, estimate, reference);
-  if (matches.empty()) throw_nothing_in_common(request);
-  const MatchedTrajectories matched = matched_poses(estimate, reference, matches);
   Evaluation evaluation;
+  const Trajectory estimate = take_file(read_trajectory_file(request.estimate), evaluation);
+  const Trajectory reference = take_file(read_trajectory_file(request.reference), evaluation);
+  const TimeAlignment time = time_alignment(request, estimate, reference, evaluation);
+  const Association found = associate(request, estimate, reference, time);
+  if (found.matches.empty()) throw_nothing_in_common(request, estimate.times, reference);
+  const MatchedTrajectories matched = matched_poses(estimate, found.reference, found.matches);
+  note_interpolated(found.interpolated, evaluation);
   evaluation.estimate_frames = estimate.poses.size();
   evaluation.reference_frames = reference.poses.size();
   evaluation.trajectory = trajectory_errors(matched, request.alignment);
-  if (request.pairs) add_pairs(matches, matched, evaluation);
+  if (request.pairs) add_pairs(found.matches, matched, evaluation);
   return evaluation;
 }
 
 }  // namespace
 
-Evaluation evaluate_pairs(const std::vector<RelativePoseRow>& rows, const Trajectory& reference) {
-  const ReferenceRows reference_rows(reference, rows);
+Evaluation evaluate_pairs(const std::vector<RelativePoseRow>& rows, const Trajectory& reference,
+                          const TimeAlignment& time) {
+  const ReferenceRows reference_rows(reference, rows, time);
   Evaluation evaluation;
   evaluation.reference_frames = reference.poses.size();
   for (const RelativePoseRow& row : rows) {
@@ -151,6 +240,7 @@ Evaluation evaluate_pairs(const std::vector<RelativePoseRow>& rows, const Trajec
     if (first == nullptr || second == nullptr) continue;
     evaluation.pairs.push_back(pair_error(row, motion_between(*first, *second)));
   }
+  note_interpolated(reference_rows.interpolated(), evaluation);
   evaluation.pair_summary = summarise(evaluation.pairs, rows.size() - evaluation.pairs.size());
   return evaluation;
 }
@@ -166,9 +256,10 @@ Evaluation evaluate_run(const std::vector<RelativePoseRow>& rows, const Trajecto
                                 " pairs, must be one chain over the estimate's " +
                                 poses_in(estimate));
   }
-  const auto matches = match_frames(*frames, reference);
-  if (matches.empty()) return evaluation;
-  evaluation.trajectory = trajectory_errors(matched_poses(estimate, reference, matches), alignment);
+  const Association found = match_frames(*frames, reference, {});
+  if (found.matches.empty()) return evaluation;
+  evaluation.trajectory =
+      trajectory_errors(matched_poses(estimate, found.reference, found.matches), alignment);
   return evaluation;
 }
 

@@ -3,6 +3,7 @@
 #include "text_io.h"
 
 #include "oneac/base/error.h"
+#include "oneac/base/input_file.h"
 #include "oneac/base/number_text.h"
 
 #include <Eigen/Geometry>
@@ -177,6 +178,7 @@ std::vector<RelativePoseRow> read_relative_poses(const std::filesystem::path& pa
 }
 
 bool looks_like_relative_poses(const std::filesystem::path& path) {
+  if (!fault_of_file(path).empty()) return false;
   std::ifstream stream(path);
   std::string line;
   if (!std::getline(stream, line)) return false;

@@ -177,7 +177,8 @@ std::string format_json(const Evaluation& evaluation, bool each_pair) {
     json["pair_summary"] = to_json(*evaluation.pair_summary);
   }
   if (evaluation.trajectory) json["trajectory"] = to_json(evaluation, *evaluation.trajectory);
-  return json.dump(2) + '\n';
+  if (evaluation.offset_s) json["offset_s"] = *evaluation.offset_s;
+  return json.dump(2, ' ', false, Json::error_handler_t::replace) + '\n';
 }
 
 }  // namespace oneac

@@ -1,12 +1,12 @@
 #include "text_io.h"
 
 #include "oneac/base/error.h"
+#include "oneac/base/input_file.h"
 
 #include <algorithm>
 #include <cmath>
 #include <fstream>
 #include <iterator>
-#include <system_error>
 
 namespace oneac {
 namespace {
@@ -27,12 +27,9 @@ std::string where_in(const std::string& file, std::size_t line) {
 }
 
 std::string read_text(const std::filesystem::path& path) {
-  std::error_code ignored;
-  if (!std::filesystem::exists(path, ignored)) {
-    throw InputError(path.string(), "no such file", "check the path");
-  }
-  if (std::filesystem::is_directory(path, ignored)) {
-    throw InputError(path.string(), "is a folder", "name a file in it");
+  if (const std::string fault = fault_of_file(path); !fault.empty()) {
+    throw InputError(path.string(), fault,
+                     fault == "is a folder" ? "name a file in it" : "check the path");
   }
   std::ifstream stream(path, std::ios::binary);
   std::string text{std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};

@@ -1,5 +1,6 @@
 #include "oneac/evaluation/trajectory_io.h"
 
+#include "pose_rows.h"
 #include "text_io.h"
 
 #include "oneac/base/error.h"
@@ -51,27 +52,6 @@ Eigen::Matrix3d nearest_rotation(const Eigen::Matrix3d& M, const std::string& wh
   return svd.matrixU() * svd.matrixV().transpose();
 }
 
-Eigen::Isometry3d kitti_pose(const std::array<double, kKittiColumns>& v, const std::string& where) {
-  Eigen::Matrix3d M;
-  M << v[0], v[1], v[2], v[4], v[5], v[6], v[8], v[9], v[10];
-  Eigen::Isometry3d T = Eigen::Isometry3d::Identity();
-  T.linear() = nearest_rotation(M, where);
-  T.translation() << v[3], v[7], v[11];
-  return T;
-}
-
-Eigen::Isometry3d tum_pose(const std::array<double, kTumColumns>& v, const std::string& where) {
-  const Eigen::Quaterniond q(v[7], v[4], v[5], v[6]);
-  if (!(std::abs(q.norm() - 1.0) < kRotationTolerance)) {
-    throw InputError(where, "columns 5-8 are not a unit quaternion",
-                     "write the columns time x y z qx qy qz qw");
-  }
-  Eigen::Isometry3d T = Eigen::Isometry3d::Identity();
-  T.linear() = q.normalized().toRotationMatrix();
-  T.translation() << v[1], v[2], v[3];
-  return T;
-}
-
 std::vector<TextLine> pose_lines(const std::string& text, const std::string& file) {
   auto lines = data_lines(text);
   if (lines.empty()) throw InputError(file, "has no poses", "write or copy it again");
@@ -90,6 +70,29 @@ std::string row_text(const Eigen::Isometry3d& T) {
 }
 
 }  // namespace
+
+Eigen::Isometry3d internal::pose_of_matrix(const std::array<double, 12>& v,
+                                           const std::string& where) {
+  Eigen::Matrix3d M;
+  M << v[0], v[1], v[2], v[4], v[5], v[6], v[8], v[9], v[10];
+  Eigen::Isometry3d T = Eigen::Isometry3d::Identity();
+  T.linear() = nearest_rotation(M, where);
+  T.translation() << v[3], v[7], v[11];
+  return T;
+}
+
+Eigen::Isometry3d internal::pose_of_quaternion(const std::array<double, 7>& v,
+                                               const std::string& where) {
+  const Eigen::Quaterniond q(v[6], v[3], v[4], v[5]);
+  if (!(std::abs(q.norm() - 1.0) < kRotationTolerance)) {
+    throw InputError(where, "columns 5-8 are not a unit quaternion",
+                     "write the columns time x y z qx qy qz qw");
+  }
+  Eigen::Isometry3d T = Eigen::Isometry3d::Identity();
+  T.linear() = q.normalized().toRotationMatrix();
+  T.translation() << v[0], v[1], v[2];
+  return T;
+}
 
 void Trajectory::validate() const {
   if (has_times() && times.size() != poses.size()) {
@@ -115,7 +118,7 @@ Trajectory read_kitti(const std::filesystem::path& path) {
   for (const TextLine& line : pose_lines(text, path.string())) {
     const auto row = parse_row<kKittiColumns>(
         line, path.string(), "a KITTI file has a 3x4 matrix per line; call a TUM file .tum");
-    trajectory.poses.push_back(kitti_pose(row, where_in(path.string(), line.number)));
+    trajectory.poses.push_back(internal::pose_of_matrix(row, where_in(path.string(), line.number)));
   }
   return trajectory;
 }
@@ -132,22 +135,10 @@ Trajectory read_tum(const std::filesystem::path& path) {
                        "sort the file by time and remove repeated lines");
     }
     trajectory.times.push_back(row[0]);
-    trajectory.poses.push_back(tum_pose(row, where));
+    trajectory.poses.push_back(internal::pose_of_quaternion(
+        {row[1], row[2], row[3], row[4], row[5], row[6], row[7]}, where));
   }
   return trajectory;
-}
-
-Trajectory read_trajectory(const std::filesystem::path& path) {
-  if (path.extension() == ".tum") return read_tum(path);
-  if (path.extension() == ".kitti") return read_kitti(path);
-  const std::string text = read_text(path);
-  const auto lines = pose_lines(text, path.string());
-  const std::size_t columns = split_at_blanks(lines.front().text).size();
-  if (columns == kTumColumns) return read_tum(path);
-  if (columns == kKittiColumns) return read_kitti(path);
-  throw InputError(where_in(path.string(), lines.front().number),
-                   std::to_string(columns) + " columns, must be 12 (KITTI) or 8 (TUM)",
-                   "name a trajectory in one of these formats");
 }
 
 std::string format_kitti(const Trajectory& trajectory) {

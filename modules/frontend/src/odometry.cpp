@@ -145,12 +145,14 @@ FrameResult Odometry::advance(const CameraFrame& frame, TrackedPair pair, const 
       std::move(pair), {attitude_.now().R_level_cam, last_motion_, frame.camera.focal_px(),
                         map_.frames(), course_.now(straight_ahead()), motion_prior(frame.time_s)});
   const double estimate_ms = seen.estimate_ms, refine_ms = seen.refine_ms;
+  std::string fault = std::move(seen.fault);
   double map_ms = 0.0;
   FrameResult result;
   {
     const StageTimer timer(map_ms);
     result = integrate(stamp_of(frame), std::move(seen), road);
   }
+  result.step->fault = std::move(fault);
   result.step->estimate_ms = estimate_ms;
   result.step->refine_ms = refine_ms + map_ms;
   return result;

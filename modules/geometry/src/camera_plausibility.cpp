@@ -2,6 +2,7 @@
 
 #include "oneac/base/number_text.h"
 #include "oneac/geometry/angles.h"
+#include "oneac/geometry/lens.h"
 
 #include <algorithm>
 #include <array>
@@ -61,7 +62,55 @@ std::optional<std::string> aspect_fault(const PinholeCamera& camera) {
          " px differ by more than a quarter";
 }
 
+constexpr double kShortest_px = 1.0, kFurthest_px = 1e6;
+constexpr double kLeastStretch = 0.05, kMostStretch = 20.0, kMostAcross = 1.0;
+
+bool is_possible_focal(double focal) {
+  return focal >= kShortest_px && focal <= kFurthest_px;
+}
+
+/// Radius [-] of the circle about the axis that fits into the image; 0 without a size.
+double inner_radius(const PinholeCamera& camera) {
+  if (camera.width <= 0 || camera.height <= 0) return 0.0;
+  return 0.5 * std::min(camera.width / camera.fx, camera.height / camera.fy);
+}
+
+/// How much further from the axis the lens puts this direction, and how much across.
+bool is_possible_at(const PinholeCamera& camera, const Eigen::Vector2d& x) {
+  const Eigen::Vector2d seen = distorted(camera, x);
+  const double stretch = seen.dot(x) / x.squaredNorm();
+  const double across = (seen - stretch * x).norm() / x.norm();
+  return stretch >= kLeastStretch && stretch <= kMostStretch && across <= kMostAcross;
+}
+
+bool is_possible_lens(const PinholeCamera& camera) {
+  const double inner = inner_radius(camera);
+  if (!(inner > 0.0)) return true;
+  // A fisheye sees farther round than its pixels over the focal length tell.
+  const double r = camera.lens == LensModel::kannala_brandt ? std::min(inner, 1.0) : inner;
+  return is_possible_at(camera, {r, 0.0}) && is_possible_at(camera, {0.0, r});
+}
+
+std::string short_text(double value) {
+  return significant_text(value, 6);
+}
+
 }  // namespace
+
+std::string impossible_camera(const PinholeCamera& camera) {
+  if (!is_possible_focal(camera.fx) || !is_possible_focal(camera.fy)) {
+    return "no camera has the focal lengths " + short_text(camera.fx) + " and " +
+           short_text(camera.fy) + " px";
+  }
+  if (!(std::abs(camera.cx) <= kFurthest_px) || !(std::abs(camera.cy) <= kFurthest_px)) {
+    return "no camera has its principal point at " + short_text(camera.cx) + ", " +
+           short_text(camera.cy) + " px";
+  }
+  if (is_possible_lens(camera)) return "";
+  std::string k;
+  for (const double value : camera.distortion) k += " " + short_text(value);
+  return "no lens has the distortion" + k;
+}
 
 std::vector<std::string> camera_faults(const PinholeCamera& camera) {
   const double width = camera.width, height = camera.height;

@@ -1,12 +1,12 @@
 #include "oneac/initialisers/yaml_parameters.h"
 
 #include "oneac/base/error.h"
+#include "oneac/base/input_file.h"
 
 #include <mrpt/containers/yaml.h>
 #include <yaml-cpp/yaml.h>
 
 #include <cstddef>
-#include <filesystem>
 #include <stdexcept>
 
 namespace oneac {
@@ -86,8 +86,9 @@ void apply_yaml(const mrpt::containers::yaml& document, const std::string& origi
 }
 
 void apply_yaml_file(const std::string& path, ParameterTable& table) {
-  if (!std::filesystem::is_regular_file(path)) {
-    throw InputError(path, "no such parameter file", "check the path after --params");
+  if (const std::string fault = fault_of_file(path); !fault.empty()) {
+    throw InputError(path, fault == "no such file" ? "no such parameter file" : fault,
+                     "check the path after --params");
   }
   YAML::Node document;
   try {

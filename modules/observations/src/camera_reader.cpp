@@ -3,8 +3,11 @@
 #include "undistortion.h"
 
 #include "oneac/base/error.h"
+#include "oneac/geometry/camera_plausibility.h"
 #include "oneac/mrpt_compat/observations.h"
 
+#include <cmath>
+#include <cstddef>
 #include <utility>
 
 namespace oneac {
@@ -14,8 +17,29 @@ constexpr const char* kAnotherScale = "set front_end.scale.source to height, gps
 
 PinholeCamera calibration_of(const CameraDescription& first, const CameraReaderOptions& options,
                              const std::string& where) {
-  if (options.calibration) return *options.calibration;
-  return to_pinhole(first.calibration, where + ": camera '" + first.name + "'");
+  const std::string name = where + ": camera '" + first.name + "'";
+  const PinholeCamera camera =
+      options.calibration ? *options.calibration : to_pinhole(first.calibration, name);
+  const std::string fault = impossible_camera(camera);
+  if (fault.empty()) return camera;
+  throw InputError(options.calibration ? "the calibration given" : name, fault,
+                   "give one that is measured, with --calibration FILE[:SECTION]");
+}
+
+/// [px] as far as a calibration may wander from image to image: a tenth of what a corner is found
+/// to. Whoever writes K with every image rounds it, through text or single precision.
+constexpr double kSamePixel = 0.01;
+constexpr double kSameDistortion = 1e-5;  // [-] moves a point at half a focal length less than that
+
+bool is_same(const mrpt::img::TCamera& a, const mrpt::img::TCamera& b) {
+  if (a == b) return true;
+  const auto near = [](double x, double y, double off) { return std::abs(x - y) <= off; };
+  for (std::size_t i = 0; i < a.dist.size(); ++i) {
+    if (!near(a.dist[i], b.dist[i], kSameDistortion)) return false;
+  }
+  return a.ncols == b.ncols && a.nrows == b.nrows && a.distortion == b.distortion &&
+         near(a.fx(), b.fx(), kSamePixel) && near(a.fy(), b.fy(), kSamePixel) &&
+         near(a.cx(), b.cx(), kSamePixel) && near(a.cy(), b.cy(), kSamePixel);
 }
 
 // The orientation that somebody states needs no convention.
@@ -73,7 +97,7 @@ CameraReader& CameraReader::operator=(CameraReader&&) noexcept = default;
 
 // One map for all images holds only while the calibration stays the same.
 void CameraReader::check_calibration(const CameraView& view, const std::string& where) const {
-  if (state_->overridden || *view.calibration == state_->stored) return;
+  if (state_->overridden || is_same(*view.calibration, state_->stored)) return;
   throw InputError(where, "the calibration of camera '" + state_->name + "' changes here",
                    "cut the log there, or give one with --calibration FILE[:SECTION]");
 }

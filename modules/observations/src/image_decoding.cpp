@@ -28,7 +28,6 @@ constexpr const char* kCopyImage =
 constexpr std::uint8_t kMarker = 0xff;                            // of a JPEG segment
 constexpr std::size_t kLargestPixels = std::size_t{1} << 27;      // 134 Mpx: more is damage
 constexpr std::streamoff kLargestFile = std::streamoff{1} << 29;  // [byte] raw, of that size
-constexpr double k16To8Bit = 1.0 / 256.0;                         // keeps the upper byte
 
 Bytes read_bytes(const std::filesystem::path& file) {
   std::ifstream stream(file, std::ios::binary | std::ios::ate);
@@ -171,6 +170,23 @@ GreyImage decode_grey_by_colour(const Bytes& bytes, const std::string& name) {
   return decoded(bytes, name, cv::IMREAD_ANYCOLOR);
 }
 
+namespace {
+
+/// The grey levels that the sensor had: cameras of 10, 12 or 14 bits leave the upper bits of a
+/// 16-bit image empty. A daylight image comes within half of its brightest level, so the least
+/// number of bits that holds its brightest pixel tells; with even numbers of them only, a dark one
+/// is rarely mistaken.
+double range_of(const cv::Mat& grey16) {
+  double brightest = 0.0;
+  cv::minMaxLoc(grey16, nullptr, &brightest);
+  for (const double range : {256.0, 1024.0, 4096.0, 16384.0}) {
+    if (brightest < range) return range;
+  }
+  return 65536.0;
+}
+
+}  // namespace
+
 GreyImage to_grey(const cv::Mat& pixels, const std::string& name) {
   const bool known_depth = pixels.depth() == CV_8U || pixels.depth() == CV_16U;
   const int channels = pixels.channels();
@@ -183,7 +199,7 @@ GreyImage to_grey(const cv::Mat& pixels, const std::string& name) {
   if (channels == 4) cv::cvtColor(pixels, grey, cv::COLOR_BGRA2GRAY);
   if (grey.depth() == CV_16U) {
     cv::Mat narrow;
-    grey.convertTo(narrow, CV_8U, k16To8Bit);
+    grey.convertTo(narrow, CV_8U, 256.0 / range_of(grey));
     grey = narrow;
   }
   return GreyImage(ImageView{grey.data, grey.cols, grey.rows, static_cast<int>(grey.step)});

@@ -195,5 +195,33 @@ TEST(CameraReader, KeepsTheConventionOfTheFirstPose) {
   EXPECT_GT(mount.linear()(2, 1), 0.9);          // and hangs upside down
 }
 
+TEST(CameraReader, TakesACalibrationThatIsRoundedFromImageToImage) {
+  const auto pair = test::external_pair("PAIR", 0, "a");
+  const CameraReader reader = reader_of(*pair);
+  const auto rounded = test::external_pair("PAIR", 1, "b");
+  rounded->leftCamera.fx(rounded->leftCamera.fx() + 1e-10);
+  rounded->leftCamera.cy(rounded->leftCamera.cy() - 0.005);
+  reader.check_calibration(camera_views(*rounded).front(), "record 1");
+  rounded->leftCamera.fy(rounded->leftCamera.fy() + 0.02);
+  const CameraView view = camera_views(*rounded).front();
+  EXPECT_THROW(reader.check_calibration(view, "record 1"), InputError);
+}
+
+TEST(CameraReader, RefusesWhatNoCameraHas) {
+  struct Case {
+    double fx, fy, k1;
+  };
+  for (const Case& c :
+       {Case{1e300, 60, 0}, Case{60, 1e-9, 0}, Case{60, 60, 1e9}, Case{60, 60, -1e9}}) {
+    const auto pair = test::external_pair("PAIR", 0, "a");
+    pair->leftCamera.fx(c.fx);
+    pair->leftCamera.fy(c.fy);
+    if (c.k1 != 0.0) pair->leftCamera.setDistortionPlumbBob(c.k1, 0, 0, 0);
+    const std::string said = test::input_error([&] { static_cast<void>(reader_of(*pair)); });
+    EXPECT_NE(said.find("no "), std::string::npos) << c.fx << ' ' << c.k1 << ": " << said;
+    EXPECT_NE(said.find("--calibration"), std::string::npos) << said;
+  }
+}
+
 }  // namespace
 }  // namespace oneac

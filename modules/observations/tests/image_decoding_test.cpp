@@ -9,6 +9,7 @@
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 
+#include <cmath>
 #include <fstream>
 #include <iterator>
 
@@ -78,6 +79,18 @@ TEST_F(ImageDecoding, NamesTheFileThatIsNoImage) {
   EXPECT_NE(fault(folder_.path() / "empty.png").find("is empty"), std::string::npos);
   EXPECT_NE(fault(folder_.path() / "none.png").find("cannot be opened"), std::string::npos);
   EXPECT_THROW(static_cast<void>(to_grey(cv::Mat(4, 4, CV_32F), "float")), InputError);
+}
+
+TEST_F(ImageDecoding, ScalesFewerBitsInSixteenByTheRangeInUse) {
+  const cv::Mat grey = test::ramp(40);
+  for (const double bits : {10.0, 12.0, 14.0, 16.0}) {
+    cv::Mat wide;
+    grey.convertTo(wide, CV_16U, std::exp2(bits - 8.0));
+    wide.at<std::uint16_t>(0, 0) = static_cast<std::uint16_t>(std::exp2(bits) - 1.0);  // the sky
+    cv::Mat expected = grey.clone();
+    expected.at<std::uint8_t>(0, 0) = 255;
+    EXPECT_TRUE(same(decode_grey_file(save("wide.png", wide)), expected)) << bits << " bits";
+  }
 }
 
 }  // namespace

@@ -309,5 +309,69 @@ TEST_F(ImportKitti, AFileThatIsNoImageIsNamed) {
   EXPECT_NE(complaint().find("000000.png"), std::string::npos) << complaint();
 }
 
+TEST_F(ImportKitti, FindsThePosesInKittisOwnLayout) {
+  options_.source = folder_.path() / "dataset" / "sequences" / "03";
+  make_sequence();
+  fs::create_directories(folder_.path() / "dataset" / "poses");
+  fs::rename(options_.source / "poses.txt", folder_.path() / "dataset" / "poses" / "03.txt");
+  EXPECT_EQ(import_kitti(options_).poses, folder_.path() / "out" / "k03_poses.txt");
+}
+
+TEST_F(ImportKitti, PassesOverWhatMacosLeavesBesideImages) {
+  make_sequence();
+  write_text(options_.source / "image_0" / "._000000.png", "no image");
+  EXPECT_EQ(import_kitti(options_).images, 3U);
+}
+
+TEST_F(ImportKitti, ReadsBitmapsAndPortableMaps) {
+  for (const char* kind : {".bmp", ".pgm", ".ppm", ".JPG"}) {
+    make_sequence();
+    fs::rename(options_.source / "image_0" / "000001.png",
+               options_.source / "image_0" / ("000001" + std::string(kind)));
+    EXPECT_EQ(import_kitti(options_).images, 3U) << kind;
+    fs::remove_all(options_.source / "image_0");
+  }
+}
+
+TEST_F(ImportKitti, SaysWhichImagesItDoesNotRead) {
+  make_sequence();
+  for (const char* name : {"000000", "000001", "000002"}) {
+    const fs::path image = options_.source / "image_0" / name;
+    fs::rename(image.string() + ".png", image.string() + ".tif");
+  }
+  EXPECT_NE(complaint().find("3 .tif"), std::string::npos) << complaint();
+  EXPECT_NE(complaint().find("convert them"), std::string::npos) << complaint();
+}
+
+TEST_F(ImportKitti, RefusesOneImageInTwoFormats) {
+  make_sequence();
+  fs::copy_file(options_.source / "image_0" / "000001.png",
+                options_.source / "image_0" / "000001.jpg");
+  EXPECT_NE(complaint().find("000001"), std::string::npos) << complaint();
+  EXPECT_NE(complaint().find("beside"), std::string::npos) << complaint();
+}
+
+TEST_F(ImportKitti, RefusesASkewAndWhatNoCameraHas) {
+  make_sequence();
+  write_text(options_.source / "calib.txt", "P0: 720 99 610 0 0 720 170 0 0 0 1 0\n");
+  EXPECT_NE(complaint().find("99"), std::string::npos) << complaint();
+  write_text(options_.source / "calib.txt", "P0: 1e300 0 610 0 0 720 170 0 0 0 1 0\n");
+  EXPECT_NE(complaint().find("1e+300"), std::string::npos) << complaint();
+}
+
+TEST_F(ImportKitti, WritesThroughALinkAndReplacesNothingButFiles) {
+  make_sequence();
+  fs::create_directories(folder_.path() / "out");
+  fs::create_directories(folder_.path() / "far");
+  fs::create_symlink("../far/log", options_.log);
+  import_kitti(options_);
+  EXPECT_TRUE(fs::is_symlink(options_.log));
+  EXPECT_EQ(images().size(), 3U);
+  fs::remove(options_.log);
+  fs::create_symlink("/dev/null", options_.log);
+  EXPECT_NE(complaint().find("a device"), std::string::npos) << complaint();
+  EXPECT_TRUE(fs::is_character_file("/dev/null"));
+}
+
 }  // namespace
 }  // namespace oneac

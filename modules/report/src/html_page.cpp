@@ -3,6 +3,8 @@
 #include "page_style.h"
 #include "svg_canvas.h"
 
+#include "oneac/base/printable.h"
+
 #include <cstdint>
 
 namespace oneac {
@@ -17,7 +19,7 @@ constexpr const char* kPolicy =
 
 std::string html_escaped(std::string_view text) {
   std::string safe;
-  for (const char letter : text) {
+  for (const char letter : printable(text)) {
     switch (letter) {
       case '<':
         safe += "&lt;";

@@ -22,8 +22,8 @@ void require_straight_for(Traffic traffic, RouteKind route) {
                      traffic == Traffic::kTruck;
   if (!along || route == RouteKind::kStraight || route == RouteKind::kStopAndGo) return;
   throw std::invalid_argument(
-      "SimulationOptions.traffic along the road takes no bends: route must be kStraight or "
-      "kStopAndGo");
+      "SimulationOptions.traffic along the road takes no bends: route must be straight or "
+      "stop-and-go");
 }
 
 }  // namespace

@@ -6,6 +6,7 @@
 #include <Eigen/Core>
 #include <opencv2/core.hpp>
 #include <opencv2/features2d.hpp>
+#include <opencv2/imgproc.hpp>
 
 #include <cmath>
 #include <cstddef>
@@ -24,11 +25,31 @@ class SiftFrame : public FrameFeatures {
   AffineFeatures features;
 };
 
-AffineFrame to_frame(const cv::KeyPoint& key) {
+/// What SIFT is shown, and the pixels of the image that one of it has.
+struct Shown {
+  cv::Mat grey;
+  double step_x = 1.0, step_y = 1.0;
+};
+
+Shown shown_of(const cv::Mat& grey, double megapixels) {
+  const double pixels = static_cast<double>(grey.cols) * grey.rows;
+  const double shrink = std::sqrt(megapixels * 1e6 / pixels);
+  if (!(shrink < 1.0)) return {grey};
+  Shown shown;
+  cv::resize(grey, shown.grey, {}, shrink, shrink, cv::INTER_AREA);
+  shown.step_x = static_cast<double>(grey.cols) / shown.grey.cols;
+  shown.step_y = static_cast<double>(grey.rows) / shown.grey.rows;
+  return shown;
+}
+
+AffineFrame to_frame(const cv::KeyPoint& key, const Shown& shown) {
   const double angle = static_cast<double>(key.angle) * kDegree;
-  const double radius = 0.5 * static_cast<double>(key.size);
+  const double radius =
+      0.5 * static_cast<double>(key.size) * std::sqrt(shown.step_x * shown.step_y);
   AffineFrame frame;
-  frame.centre = {static_cast<double>(key.pt.x), static_cast<double>(key.pt.y)};
+  // Pixels are counted from the middle of the first one.
+  frame.centre = {(static_cast<double>(key.pt.x) + 0.5) * shown.step_x - 0.5,
+                  (static_cast<double>(key.pt.y) + 0.5) * shown.step_y - 0.5};
   frame.shape << std::cos(angle), -std::sin(angle), std::sin(angle), std::cos(angle);
   frame.shape *= radius;
   return frame;
@@ -43,14 +64,15 @@ AffineFeatures detect_sift(const ImageView& image, const VlfeatOptions& options)
                                      options.edge_threshold, kSigma);
   std::vector<cv::KeyPoint> keys;
   cv::Mat histograms;
-  sift->detectAndCompute(grey, cv::noArray(), keys, histograms);
+  const Shown shown = shown_of(grey, options.sift_megapixels);
+  sift->detectAndCompute(shown.grey, cv::noArray(), keys, histograms);
   AffineFeatures features;
   features.descriptors.resize(static_cast<Eigen::Index>(keys.size()), 128);
   for (std::size_t i = 0; i < keys.size(); ++i) {
     const Eigen::Map<const Eigen::Matrix<float, 1, 128>> histogram(
         histograms.ptr<float>(static_cast<int>(i)));
     const float sum = histogram.sum();
-    features.frames.push_back(to_frame(keys[i]));
+    features.frames.push_back(to_frame(keys[i], shown));
     const auto row = static_cast<Eigen::Index>(i);
     if (sum > 0.0F) {
       features.descriptors.row(row) = (histogram / sum).cwiseMax(0.0F).cwiseSqrt();

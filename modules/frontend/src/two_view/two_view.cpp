@@ -82,11 +82,13 @@ TwoView TwoViewEstimator::estimate(TrackedPair pair, const TwoViewPrior& prior) 
   std::vector<bool> told(pair.size(), true);
   bool whole = !creeps(prior.motion) || !take_the_sky_apart(pair, prior, told);
   TwoView result;
-  InitialiserResult found = initialise(pair, told, prior, result.estimate_ms);
-  if (whole && step_status(found.status) == StepStatus::kNoMotion) {
+  CheckedAnswer answer = initialise(pair, told, prior, result.estimate_ms);
+  if (whole && step_status(answer.result.status) == StepStatus::kNoMotion) {
     whole = !take_the_sky_apart(pair, prior, told);
-    if (!whole) found = initialise(pair, told, prior, result.estimate_ms);
+    if (!whole) answer = initialise(pair, told, prior, result.estimate_ms);
   }
+  InitialiserResult& found = answer.result;
+  result.fault = std::move(answer.fault);
   result.status = step_status(found.status);
   result.inlier_count = found.inlier_count;
   result.focal_px = prior.focal_px;
@@ -106,17 +108,15 @@ TwoView TwoViewEstimator::estimate(TrackedPair pair, const TwoViewPrior& prior) 
   return whole ? result : with_the_sky(std::move(result), told, threshold_px_);
 }
 
-InitialiserResult TwoViewEstimator::initialise(const TrackedPair& pair,
-                                               const std::vector<bool>& told,
-                                               const TwoViewPrior& prior, double& cpu_ms) const {
+CheckedAnswer TwoViewEstimator::initialise(const TrackedPair& pair, const std::vector<bool>& told,
+                                           const TwoViewPrior& prior, double& cpu_ms) const {
   const std::vector<AffineCorrespondence> acs = those_of(affine_parts(pair), told);
   const StageTimer timer(cpu_ms);
-  InitialiserResult found = initialiser_->estimate(
-      {acs, prior.R_level_cam, prior.focal_px, seed_ + prior.number, prior.motion});
-  if (acs.size() < told.size() && found.inliers.size() == acs.size()) {
-    found.inliers = among_all(found.inliers, told);
-  }
-  return found;
+  CheckedAnswer answer = checked_answer(
+      *initialiser_, {acs, prior.R_level_cam, prior.focal_px, seed_ + prior.number, prior.motion});
+  std::vector<bool>& inliers = answer.result.inliers;
+  if (acs.size() < told.size() && inliers.size() == acs.size()) inliers = among_all(inliers, told);
+  return answer;
 }
 
 TwoView TwoViewEstimator::refined(TwoView start) const {

@@ -5,7 +5,7 @@
 #include "oneac/features/correspondence.h"
 #include "oneac/frontend/frame_result.h"
 #include "oneac/geometry/relative_pose.h"
-#include "oneac/initialisers/relative_pose_initialiser.h"
+#include "oneac/initialisers/checked_answer.h"
 #include "oneac/refine/two_view.h"
 
 #include <Eigen/Core>
@@ -13,6 +13,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <optional>
+#include <string>
 #include <vector>
 
 namespace oneac {
@@ -42,6 +43,7 @@ struct TwoView {
   std::size_t inlier_count = 0;
   double focal_px = 1.0;                      ///< [px] of one normalised unit
   double estimate_ms = 0.0, refine_ms = 0.0;  ///< CPU time [ms]
+  std::string fault;  ///< of the initialiser's answer, which is not used; "" as a rule
 };
 
 /// Initialises, corrects for perspective, refines. Does not change from pair to pair.
@@ -54,8 +56,8 @@ class TwoViewEstimator {
 
  private:
   /// @param told  those to go by
-  [[nodiscard]] InitialiserResult initialise(const TrackedPair& pair, const std::vector<bool>& told,
-                                             const TwoViewPrior& prior, double& cpu_ms) const;
+  [[nodiscard]] CheckedAnswer initialise(const TrackedPair& pair, const std::vector<bool>& told,
+                                         const TwoViewPrior& prior, double& cpu_ms) const;
   [[nodiscard]] TwoView refined(TwoView start) const;
 
   RelativePoseInitialiser::Ptr initialiser_;

@@ -1,6 +1,7 @@
 #include "images/external_images.h"
 
 #include "oneac/base/error.h"
+#include "oneac/rawlog/log_neighbours.h"
 
 #include <algorithm>
 
@@ -27,9 +28,19 @@ ExternalImages::ExternalImages(const fs::path& log, const fs::path& images_dir)
     folders_ = {images_dir};
     return;
   }
-  const fs::path home = log.has_parent_path() ? log.parent_path() : fs::path(".");
-  const std::string base = log.stem().string();
-  folders_ = {home / (base + "_Images"), home / (base + "_images"), home / "Images", home};
+  const auto add = [this](const fs::path& folder) {
+    if (std::find(folders_.begin(), folders_.end(), folder) == folders_.end()) {
+      folders_.push_back(folder);
+    }
+  };
+  const std::vector<fs::path> bases = bases_beside(log);
+  for (const fs::path& base : bases) {
+    for (const char* ending : {"_Images", "_images"}) add(base.string() + ending);
+  }
+  for (const fs::path& base : bases) {
+    add(base.parent_path() / "Images");
+    add(base.parent_path());
+  }
 }
 
 std::optional<fs::path> ExternalImages::find(const std::string& stored_name) {

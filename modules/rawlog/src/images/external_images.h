@@ -11,7 +11,8 @@ namespace oneac {
 /// Finds the files of images that a log stores outside itself.
 ///
 /// A given folder is the only one searched; without one: `<base>_Images`, `<base>_images`, `Images`
-/// and the log's own folder, in this order. An absolute name is taken as it is and, when it is not
+/// and the log's own folder, in this order; of drive.rawlog.gz also `drive_Images`, of a link also
+/// where it leads to (see bases_beside). An absolute name is taken as it is and, when it is not
 /// there, looked for by its file name in the given folder.
 class ExternalImages {
  public:

@@ -6,6 +6,8 @@
 
 #include <algorithm>
 #include <cctype>
+#include <initializer_list>
+#include <map>
 #include <stdexcept>
 #include <string_view>
 #include <system_error>
@@ -17,11 +19,45 @@ namespace fs = std::filesystem;
 
 constexpr int kSmallest_px = 32;  // of an image that shows a road
 
-bool is_image(const fs::path& path) {
+std::string lower_extension(const fs::path& path) {
   std::string extension = path.extension().string();
   std::transform(extension.begin(), extension.end(), extension.begin(),
                  [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return extension == ".png" || extension == ".jpg" || extension == ".jpeg";
+  return extension;
+}
+
+bool is_one_of(const std::string& extension, std::initializer_list<const char*> known) {
+  return std::any_of(known.begin(), known.end(),
+                     [&](const char* name) { return extension == name; });
+}
+
+/// Hidden files are none: "._000000.jpg" is what macOS leaves beside an image.
+bool is_hidden(const fs::path& path) {
+  return path.filename().native().front() == '.';
+}
+
+bool is_image(const fs::path& path) {
+  return !is_hidden(path) &&
+         is_one_of(lower_extension(path), {".png", ".jpg", ".jpeg", ".bmp", ".pgm", ".ppm"});
+}
+
+bool is_foreign_image(const fs::path& path) {
+  return !is_hidden(path) &&
+         is_one_of(lower_extension(path),
+                   {".tif", ".tiff", ".webp", ".heic", ".gif", ".jp2", ".raw", ".dng", ".exr"});
+}
+
+/// One moment would be there twice: "000003.jpg" beside "000003.png".
+void require_different_names(const std::vector<fs::path>& images) {
+  std::map<std::string, fs::path> stems;
+  for (const fs::path& image : images) {
+    const auto [known, is_new] = stems.emplace(image.stem().string(), image);
+    if (is_new) continue;
+    throw InputError(image.string(),
+                     "is there beside " + known->second.filename().string() +
+                         ", and which of them to take nobody says",
+                     "move the images of one kind to another folder");
+  }
 }
 
 bool is_digit(char c) {
@@ -69,10 +105,24 @@ std::vector<fs::path> list_images(const fs::path& folder) {
   for (const auto& entry : fs::directory_iterator(folder, error)) {
     if (entry.is_regular_file(error) && is_image(entry.path())) images.push_back(entry.path());
   }
+  require_different_names(images);
   std::sort(images.begin(), images.end(), [](const fs::path& a, const fs::path& b) {
     return comes_before(a.filename().native(), b.filename().native());
   });
   return images;
+}
+
+std::string foreign_images(const fs::path& folder) {
+  std::map<std::string, std::size_t> kinds;
+  std::error_code error;
+  for (const auto& entry : fs::directory_iterator(folder, error)) {
+    if (is_foreign_image(entry.path())) ++kinds[lower_extension(entry.path())];
+  }
+  std::string text;
+  for (const auto& [kind, count] : kinds) {
+    text += (text.empty() ? "" : ", ") + std::to_string(count) + " " + kind;
+  }
+  return text;
 }
 
 bool is_reordered(const std::vector<fs::path>& images) {
@@ -114,7 +164,7 @@ std::string ImageReferences::refer_to(const fs::path& image, const std::string& 
   if (copies_.empty()) return fs::canonical(image).string();
   const std::string name = prefix + image.filename().string();
   std::error_code error;
-  fs::copy_file(image, copies_ / name, fs::copy_options::overwrite_existing, error);
+  fs::copy_file(image, replaced_file(copies_ / name), fs::copy_options::overwrite_existing, error);
   if (error) {
     throw OutputError((copies_ / name).string(), "cannot be copied (" + error.message() + ")",
                       "free some space or import without --copy-images");

@@ -7,6 +7,10 @@
 
 #include "oneac/base/atomic_file.h"
 #include "oneac/base/error.h"
+#include "oneac/base/median.h"
+#include "oneac/base/number_text.h"
+#include "oneac/geometry/camera_height.h"
+#include "oneac/geometry/camera_plausibility.h"
 #include "oneac/rawlog/calibration.h"
 
 #include <Eigen/Dense>
@@ -43,9 +47,16 @@ Sequence find_images(const fs::path& source) {
     Sequence sequence{folder, list_images(source / folder)};
     if (!sequence.images.empty()) return sequence;
   }
-  throw InputError(source.string(),
-                   "no images (png, jpg) in image_0, image_l, image_2 or images in it",
-                   "give the folder of one sequence, such as sequences/03");
+  for (const char* folder : kImageFolders) {
+    const std::string foreign = foreign_images(source / folder);
+    if (foreign.empty()) continue;
+    throw InputError((source / folder).string(), "its images (" + foreign + ") are not read",
+                     "convert them to PNG, JPEG, BMP, PGM or PPM");
+  }
+  throw InputError(
+      source.string(),
+      "no images (png, jpg, bmp, pgm, ppm) in image_0, image_l, image_2 or images in it",
+      "give the folder of one sequence, such as sequences/03");
 }
 
 PinholeCamera find_calibration(const fs::path& source, const Sequence& sequence) {
@@ -57,6 +68,9 @@ PinholeCamera find_calibration(const fs::path& source, const Sequence& sequence)
   const std::string section = sequence.label == "image_2" ? ":P2" : ":P0";
   PinholeCamera camera = load_calibration(file.string() + section, "");
   std::tie(camera.width, camera.height) = image_size(sequence.images.front());
+  if (const std::string fault = impossible_camera(camera); !fault.empty()) {
+    throw InputError(file.string(), fault, "give the calib.txt of this sequence");
+  }
   return camera;
 }
 
@@ -102,15 +116,27 @@ void require_poses(const std::vector<std::vector<double>>& table, const fs::path
   }
 }
 
+/// In the sequence's folder, or where KITTI has them: sequences/03 and poses/03.txt.
+fs::path find_poses(const fs::path& source) {
+  std::error_code ignored;
+  const fs::path own = source / "poses.txt";
+  if (fs::exists(own, ignored)) return own;
+  const fs::path folder = fs::canonical(source, ignored);
+  const fs::path kittis =
+      folder.parent_path().parent_path() / "poses" / (folder.filename().string() + ".txt");
+  const bool there = folder.parent_path().filename() == "sequences" && fs::exists(kittis, ignored);
+  return there ? kittis : fs::path();
+}
+
 void copy_poses(const fs::path& source, const Sequence& sequence, ImportReport& report) {
-  const fs::path file = source / "poses.txt";
-  if (!fs::exists(file)) return;
+  const fs::path file = find_poses(source);
+  if (file.empty()) return;
   require_poses(read_number_table(file, kPoseColumns), file);  // found here, not when used
   const std::vector<std::string> lines = lines_of(file);
   const auto rows = rows_of(sequence.images, lines.size());
   if (rows.empty()) {
-    report.notes.push_back("poses.txt is left out: " +
-                           counts(lines.size(), sequence.images.size()));
+    report.notes.push_back(file.filename().string() +
+                           " is left out: " + counts(lines.size(), sequence.images.size()));
     return;
   }
   std::string text;

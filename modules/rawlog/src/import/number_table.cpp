@@ -1,6 +1,7 @@
 #include "import/number_table.h"
 
 #include "oneac/base/error.h"
+#include "oneac/base/input_file.h"
 
 #include <charconv>
 #include <cmath>
@@ -55,6 +56,9 @@ bool is_comment(const std::string& text) {
 
 std::vector<std::vector<double>> read_number_table(const std::filesystem::path& file,
                                                    std::size_t least_columns) {
+  if (const std::string fault = fault_of_file(file); !fault.empty()) {
+    throw InputError(file.string(), fault, "put the file there, or take it away");
+  }
   std::ifstream stream(file);
   if (!stream) throw InputError(file.string(), "cannot be opened", "check its permissions");
   std::vector<std::vector<double>> rows;

@@ -3,6 +3,8 @@
 #include "calibration/calibration_numbers.h"
 
 #include "oneac/base/error.h"
+#include "oneac/base/input_file.h"
+#include "oneac/base/number_text.h"
 #include "oneac/observations/camera_view.h"
 
 #include <algorithm>
@@ -123,6 +125,16 @@ PinholeCamera parse_sections(const SectionReader& reader) {
 PinholeCamera parse_kitti(const SectionReader& reader) {
   const auto P = reader.list(kKittiKey);
   if (P.size() != 12) reader.fail("it does not hold twelve numbers");
+  constexpr double kNone = 1e-6;  // of what a P of rectified images has no place for
+  const bool upper = std::abs(P[1]) <= kNone * std::abs(P[0]) && std::abs(P[4]) <= kNone &&
+                     std::abs(P[8]) <= kNone && std::abs(P[9]) <= kNone &&
+                     std::abs(P[10] - 1.0) <= kNone;
+  const bool has_focal = P[0] > 0.0 && P[5] > 0.0;  // else that is what is said
+  if (has_focal && !upper) {
+    throw InputError(reader.file.path.string() + ": " + reader.name,
+                     "it has a skew, or is no K [I | t]: second number " + exact_text(P[1]),
+                     "give fx 0 cx a, 0 fy cy b, 0 0 1 c of rectified images with square axes");
+  }
   PinholeCamera camera;
   camera.fx = P[0];
   camera.cx = P[2];
@@ -139,6 +151,9 @@ bool is_projection_name(const std::string& name) {
 
 std::string calibration_text(const std::filesystem::path& path) {
   constexpr std::size_t kLongest = 1U << 20;  // a rig's calibration has some kB
+  if (const std::string fault = fault_of_file(path); !fault.empty() && fault != "no such file") {
+    throw InputError(path.string(), fault, "name a calibration file");
+  }
   std::ifstream stream(path, std::ios::binary);
   if (!stream)
     throw InputError(path.string(), "the calibration cannot be opened", "check its name");

@@ -1,6 +1,7 @@
 #include "read/decompressing_stream.h"
 
 #include "oneac/base/error.h"
+#include "oneac/base/input_file.h"
 
 #include <algorithm>
 #include <cstring>
@@ -27,15 +28,14 @@ struct DecompressingStream::File {
 
 DecompressingStream::DecompressingStream(const std::filesystem::path& file)
     : file_(std::make_unique<File>()), in_(kBufferBytes), out_(kBufferBytes) {
-  std::error_code ignored;
-  if (!std::filesystem::exists(file, ignored)) {
-    throw InputError(file.string(), "no such file", "check the name of the log");
-  }
-  if (std::filesystem::is_directory(file, ignored)) {
-    throw InputError(file.string(), "is a folder", "give the .rawlog file in it");
+  if (const std::string fault = fault_of_file(file); !fault.empty()) {
+    throw InputError(
+        file.string(), fault,
+        fault == "is a folder" ? "give the .rawlog file in it" : "check the name of the log");
   }
   file_->stream.open(file, std::ios::binary);
   if (!file_->stream) throw InputError(file.string(), "cannot be opened", "check its permissions");
+  std::error_code ignored;
   const auto size = std::filesystem::file_size(file, ignored);
   file_->size = ignored ? 0 : size;
   read_input();

@@ -169,6 +169,11 @@ std::optional<FrameTicket> RawlogSource::Impl::ticket_of(const Sight& sight,
   auto payload = std::make_shared<Payload>();
   payload->image = std::move(*image);
   if (sight.right) add_right(*sight.right, record.number, *payload);
+  if (payload->right) {
+    ++report_.pairs_delivered;
+  } else if (options_.stereo && report_.first_lone.empty()) {
+    report_.first_lone = ticket.name;
+  }
   ticket.time_s = CameraReader::time_of(record.observation->timestamp, where(record.number));
   payload->T_vehicle_cam = camera_.mount(view);
   ticket.payload = std::move(payload);

@@ -6,6 +6,7 @@
 
 #include "oneac/base/atomic_file.h"
 #include "oneac/base/error.h"
+#include "oneac/base/input_file.h"
 #include "oneac/geometry/camera_frame.h"
 
 #include <mrpt/obs/CObservationIMU.h>
@@ -57,16 +58,21 @@ mrpt::poses::CPose3D sensor_pose(const Eigen::Isometry3d& T_vehicle_cam,
   return mrpt_pose(T_vehicle_sensor);
 }
 
+/// The log, or the file that it links to.
+fs::path log_to_replace(const fs::path& log) {
+  const std::string fault = fault_of_file(log);
+  if (!fault.empty() && fault != "no such file") {
+    throw InputError(log.string(), fault, "give the name of a file, such as drive.rawlog");
+  }
+  return replaced_file(log);
+}
+
 }  // namespace
 
 class RawlogWriter::Impl {
  public:
-  explicit Impl(const fs::path& log) : log_(log), temporary_(log) {
-    require_writable_folder(log.has_parent_path() ? log.parent_path() : fs::path("."));
-    if (fs::is_directory(log)) {
-      throw InputError(log.string(), "is a folder",
-                       "give the name of a file, such as drive.rawlog");
-    }
+  explicit Impl(const fs::path& log) : log_(log_to_replace(log)), temporary_(log_) {
+    require_writable_folder(log_.has_parent_path() ? log_.parent_path() : fs::path("."));
     temporary_ += ".part" + std::to_string(::getpid());
     try {
       stream_ = std::make_unique<GzipFileStream>(temporary_);

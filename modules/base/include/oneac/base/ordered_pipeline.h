@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <deque>
+#include <exception>
 #include <future>
 #include <optional>
 #include <utility>
@@ -10,6 +11,8 @@ namespace oneac {
 
 /// Maps items on several threads and hands the results on in the order of the input, so that the
 /// outcome does not depend on the number of threads.
+///
+/// An exception of `next` or `map` comes out when everything before it has been consumed.
 ///
 /// @param next     called on this thread; the next item, or nothing at the end
 /// @param map      called on a worker; a pure function of the item
@@ -27,9 +30,18 @@ void ordered_pipeline(Next&& next, Map&& map, Consume&& consume, int threads) {
   using Result = std::decay_t<decltype(map(std::declval<Item>()))>;
   std::deque<std::future<Result>> in_flight;
   bool more = true;
+  std::exception_ptr fault;  // of `next`: what is in flight comes first
+  const auto next_item = [&]() -> decltype(next()) {
+    try {
+      return next();
+    } catch (...) {
+      fault = std::current_exception();
+      return std::nullopt;
+    }
+  };
   const auto fill = [&] {
     while (more && in_flight.size() < static_cast<std::size_t>(threads)) {
-      auto item = next();
+      auto item = next_item();
       more = item.has_value();
       if (!more) return;
       in_flight.push_back(
@@ -42,6 +54,7 @@ void ordered_pipeline(Next&& next, Map&& map, Consume&& consume, int threads) {
     in_flight.pop_front();
     if (!consume(std::move(result))) return;
   }
+  if (fault) std::rethrow_exception(fault);
 }
 
 }  // namespace oneac

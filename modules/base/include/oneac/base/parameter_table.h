@@ -40,6 +40,13 @@ class ParameterTable {
   ///         text is not of the field's type
   void set(const std::string& key, const std::string& text);
 
+  /// @throws std::invalid_argument  "key = value, must be bound", the key in full
+  void check_bounds() const;
+
+  /// The key in full of a field that a message names by its struct, "window.fixed": the first that
+  /// ends so; the name itself where none does.
+  [[nodiscard]] std::string full_key(const std::string& name) const;
+
   /// In the order they were added.
   [[nodiscard]] const std::vector<Parameter>& parameters() const { return parameters_; }
   [[nodiscard]] std::string value_text(const Parameter& parameter) const;

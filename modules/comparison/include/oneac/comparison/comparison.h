@@ -25,7 +25,8 @@ struct CompareHooks {
 /// of the direction of travel that "1ac_pooled" finds on up to kTiltPairs pairs spread evenly over
 /// the log; it depends neither on the shard nor on the methods compared.
 ///
-/// @return one line per log that ends in damage, to be told to the user
+/// @return one line per log that ends in damage or at an image that cannot be decoded, to be told
+/// to the user
 /// @throws InputError when a log cannot be used
 std::vector<std::string> run_comparison(const CompareSettings& settings, const Shard& shard,
                                         Journal& journal, const CompareHooks& hooks);

@@ -10,11 +10,15 @@
 
 namespace oneac {
 
+/// The status of an answer that breaks what initialisers promise: no pose, a failure.
+inline constexpr const char* kInvalidAnswer = "invalid";
+
 /// One estimate: one method, one trial, one pair.
 struct MethodResult {
   std::size_t method = 0;  ///< index into the methods of the comparison
   int trial = 0;
-  std::string status;  ///< of PoseStatus
+  std::string status;  ///< of PoseStatus, or kInvalidAnswer
+  std::string fault;   ///< what was wrong with an answer that could not be used, else ""
   bool has_pose = false;
   RelativePose pose;  ///< T_2_1 of the camera, |t| = 1 or 0; identity without a pose
   std::size_t inliers = 0;
@@ -42,6 +46,7 @@ struct LogRecord {
   std::string name;
   std::size_t images = 0;  ///< selected and present
   std::size_t pairs = 0;
+  std::size_t last_index = 0;        ///< of the last of these images in the log
   Tilt tilt;                         ///< that every method was given
   std::string reference;             ///< "none", "GPS course" or the file of poses
   double course_sigma_deg = 0.0;     ///< 1σ of a GPS course, 0: not from GPS

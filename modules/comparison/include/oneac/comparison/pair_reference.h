@@ -20,9 +20,6 @@ struct ImageMoment {
   double time_s = 0.0;
 };
 
-/// `<base>_poses.txt` or `poses.txt` beside a log; "" when there is neither.
-[[nodiscard]] std::string find_poses_beside(const std::filesystem::path& log);
-
 /// What the true motion between two images was, as far as anything says so.
 class PairReference {
  public:

@@ -7,6 +7,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <filesystem>
 #include <string>
 #include <vector>
 
@@ -26,6 +27,11 @@ struct Shard {
 /// Reads "i/n", 0 ≤ i < n. @throws InputError naming the text
 [[nodiscard]] Shard parse_shard(const std::string& text);
 
+/// "0.1.0 (abc123456), build 89ab…": version of the running program and a hash of its file.
+[[nodiscard]] std::string running_program();
+/// "name.so 89ab…": a library and a hash of its file.
+[[nodiscard]] std::string identity_of_plugin(const std::filesystem::path& library);
+
 /// Everything that the results of a comparison depend on.
 struct CompareSettings {
   std::vector<std::string> logs;
@@ -37,6 +43,8 @@ struct CompareSettings {
   std::string method_parameters;  ///< YAML, see make_method
   int trials = 1;                 ///< per pair and method; trial k has the seed `seed` + k
   std::uint64_t seed = 0;
+  std::string program;               ///< what computes: version and hash of the program's file
+  std::vector<std::string> plugins;  ///< name and hash of each library with methods
 
   /// One log's source. @pre log < logs.size()
   [[nodiscard]] SourceOptions source_of(std::size_t log) const;

@@ -2,12 +2,14 @@
 
 #include "oneac/evaluation/pair_errors.h"
 #include "oneac/evaluation/relative_poses_io.h"
+#include "oneac/evaluation/time_alignment.h"
 #include "oneac/evaluation/trajectory_errors.h"
 #include "oneac/evaluation/trajectory_io.h"
 
 #include <cstddef>
 #include <filesystem>
 #include <optional>
+#include <string>
 #include <vector>
 
 namespace oneac {
@@ -19,13 +21,16 @@ struct Evaluation {
   std::optional<TrajectoryErrors> trajectory;
   std::size_t estimate_frames = 0;   ///< rows of the estimated trajectory, matched or not
   std::size_t reference_frames = 0;  ///< rows of the reference
+  std::optional<double> offset_s;    ///< that was added to the estimate's times, where asked for
+  std::vector<std::string> notes;    ///< what was made of files and times, one line each
 };
 
 /// Errors of each pair that has a reference. The reference pose of an image is the row that its
-/// index names, or, when the reference has times, the nearest in time (see time_tolerance).
+/// index names, or, when the reference has times, that of its time (see resampled()).
 /// @param reference  T_world_camera, camera optical frame [m]
 [[nodiscard]] Evaluation evaluate_pairs(const std::vector<RelativePoseRow>& rows,
-                                        const Trajectory& reference);
+                                        const Trajectory& reference,
+                                        const TimeAlignment& time = {});
 
 /// All that a run can say about itself: evaluate_pairs, and the trajectory's errors with its rows
 /// associated by the pairs' indices or times. No trajectory errors when nothing is associated.
@@ -39,9 +44,11 @@ struct Evaluation {
 /// What `oneac eval` is asked.
 struct EvaluationRequest {
   std::filesystem::path estimate;   ///< relative_poses.csv, or a KITTI or TUM trajectory
-  std::filesystem::path reference;  ///< KITTI or TUM trajectory
+  std::filesystem::path reference;  ///< any form that read_trajectory_file() knows
   Alignment alignment = Alignment::kSe3;
   bool pairs = false;  ///< of a trajectory: its consecutive rows as pairs too
+  TimeAlignment time = {};
+  bool estimate_offset = false;  ///< see estimated_offset(); instead of time.offset_s
 };
 
 /// Reads both files and compares them.

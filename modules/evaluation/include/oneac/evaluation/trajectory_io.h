@@ -31,8 +31,20 @@ struct Trajectory {
 /// @throws InputError as read_kitti, and when the times do not increase
 [[nodiscard]] Trajectory read_tum(const std::filesystem::path& path);
 
-/// Reads either: `.kitti` and `.tum` as they are called, anything else by the number of columns of
-/// its first pose (12 or 8). @throws InputError as the above
+/// A trajectory as people have it, and what was made of it.
+struct TrajectoryFile {
+  Trajectory trajectory;
+  std::vector<std::string> notes;  ///< unit, order or stamps that were put right, one line each
+};
+
+/// Reads a trajectory by the columns of its first pose: KITTI (12), TUM (8), 4×4 matrices (16, or
+/// four lines of 4), either matrix behind a time (13, 17), EuRoC (8 and more behind commas: time,
+/// position, qw qx qy qz). Times may be in s, ms, µs or ns, since 1970 or since a start; rows out
+/// of order are sorted, of several with one time the first is taken.
+/// @throws InputError as read_kitti
+[[nodiscard]] TrajectoryFile read_trajectory_file(const std::filesystem::path& path);
+
+/// The same without the notes; `.kitti` as read_kitti.
 [[nodiscard]] Trajectory read_trajectory(const std::filesystem::path& path);
 
 /// The text of a KITTI file; numbers read back as the same doubles, whatever the locale.

@@ -25,6 +25,9 @@ struct VlfeatOptions {
   double peak_threshold = 0.01;  ///< [grey of 0…1] DoG response; lower gives more, weaker features
   double edge_threshold = 10;    ///< [-] ratio of curvatures; Lowe's value
   int max_features = 3000;       ///< strongest DoG peaks kept; bounds the cost on busy images
+  /// [Mpx] SIFT looks at no larger image, a larger one is shrunk for it: its scale space takes 270
+  /// bytes a pixel, 0.5 GB for an image of that size
+  double sift_megapixels = 2.0;
 
   /// @throws std::invalid_argument naming field, value and bound
   void validate() const;
@@ -93,6 +96,8 @@ void describe(Visitor&& visit, VlfeatOptions& o) {
   visit("edge_threshold", o.edge_threshold, "-", "largest ratio of curvatures", Bound::at_least(1));
   visit("max_features", o.max_features, "count", "strongest features kept per image",
         Bound::positive());
+  visit("sift_megapixels", o.sift_megapixels, "Mpx", "SIFT shrinks larger images; bounds memory",
+        Bound::from_to(0.1, 100));
 }
 
 template <class Visitor>

@@ -9,6 +9,7 @@
 
 #include <cstddef>
 #include <optional>
+#include <string>
 
 namespace oneac {
 
@@ -37,6 +38,7 @@ struct StepResult {
   std::size_t inliers = 0;     ///< of them that obey the pose
   std::size_t ground_acs = 0;  ///< on the road, where the road was last measured in this step
   std::size_t landmarks = 0;   ///< of the map that carried the length; 0: another source did
+  std::string fault;           ///< of the initialiser's answer, which was not used; "" as a rule
   std::size_t segment = 0;     ///< raised when tracking had to start anew
   double features_ms = 0.0, estimate_ms = 0.0, refine_ms = 0.0;  ///< CPU time [ms]
 };

@@ -19,4 +19,10 @@ namespace oneac {
 ///      then nothing can be said
 [[nodiscard]] std::vector<std::string> camera_faults(const PinholeCamera& camera);
 
+/// Why no camera can be so, whatever its images: a focal length below 1 px or above 10⁶ px, a
+/// principal point further than 10⁶ px away, a lens that folds or stretches the image more than
+/// twentyfold within the circle that fits into it. One line with the numbers; "" otherwise.
+/// @pre as camera_faults
+[[nodiscard]] std::string impossible_camera(const PinholeCamera& camera);
+
 }  // namespace oneac

@@ -51,7 +51,9 @@ class RelativePoseInitialiser : public mrpt::rtti::CObject, public mrpt::system:
   [[nodiscard]] virtual InitialiserResult estimate(const InitialiserInput& input) const = 0;
 };
 
-/// Short names of all registered initialisers, sorted.
+/// Short names of all registered initialisers, sorted. The built-in ones are registered by the
+/// first call of this function or of make_initialiser(): before it, mrpt::rtti::classFactory()
+/// knows none.
 [[nodiscard]] std::vector<std::string> initialiser_names();
 
 /// Makes an initialiser from its short name ("1ac_pooled") or class name.
@@ -59,3 +61,12 @@ class RelativePoseInitialiser : public mrpt::rtti::CObject, public mrpt::system:
 [[nodiscard]] RelativePoseInitialiser::Ptr make_initialiser(const std::string& name);
 
 }  // namespace oneac
+
+#ifdef ONEAC_PLUGIN_VERSION  // set by oneac_plugin(): every file of the library says how it was
+                             // built
+#include "oneac/initialisers/plugin_stamp.h"
+namespace {
+[[gnu::used]] constexpr oneac::PluginStamp kOneacPluginStamp =
+    oneac::plugin_stamp(ONEAC_PLUGIN_VERSION);
+}  // namespace
+#endif

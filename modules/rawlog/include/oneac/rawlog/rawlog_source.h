@@ -33,9 +33,11 @@ struct SourceOptions {
 
 /// What a pass over the log met, complete once next() has returned nothing.
 struct SourceReport {
-  std::size_t images_in_log = 0;   ///< of the selected camera, as far as read
-  std::size_t images_missing = 0;  ///< external files that were not found (among those selected)
-  std::string first_missing;       ///< name of the first of them
+  std::size_t images_in_log = 0;    ///< of the selected camera, as far as read
+  std::size_t images_missing = 0;   ///< external files that were not found (among those selected)
+  std::string first_missing;        ///< name of the first of them
+  std::size_t pairs_delivered = 0;  ///< with `stereo`: images delivered with their right one
+  std::string first_lone;           ///< name of the first that was delivered without, else ""
   std::string damage;  ///< one line (file, record, fault, cure) when the log ends badly, else ""
   std::string names_out_of_order;  ///< one line with the cure, else ""
   VehicleReference reference;      ///< GPS and IMU seen on the way

@@ -1,0 +1,50 @@
+#include "usage.h"
+
+#include "oneac/base/nearest_name.h"
+#include "oneac/base/printable.h"
+
+#include <algorithm>
+#include <iostream>
+
+namespace oneac::app {
+namespace {
+
+constexpr std::size_t kLongest = 3000;  // [byte] of a line, as where, fault and cure have together
+constexpr std::size_t kLongestWord = 60;
+
+std::vector<std::string> verbs_of(const CLI::App& program) {
+  std::vector<std::string> names;
+  for (const CLI::App* verb : program.get_subcommands({})) names.push_back(verb->get_name());
+  return names;
+}
+
+/// Which verb is meant, where the first argument is none; "" when it is one, or a flag.
+std::string about_verb(const CLI::App& program, const std::vector<std::string>& arguments) {
+  const std::vector<std::string> verbs = verbs_of(program);
+  std::string all;
+  for (const std::string& verb : verbs) all += (all.empty() ? "" : ", ") + verb;
+  if (arguments.empty()) return "no verb given; choose from: " + all;
+  const std::string& word = arguments.front();
+  const bool known = std::find(verbs.begin(), verbs.end(), word) != verbs.end();
+  if (known || (!word.empty() && word.front() == '-')) return "";
+  return "'" + shortened(word, kLongestWord) + "' is no verb, did you mean '" +
+         nearest_name(shortened(word, kLongestWord), verbs) + "'? There are: " + all;
+}
+
+}  // namespace
+
+int answer_to(const CLI::ParseError& error, const CLI::App& program,
+              const std::vector<std::string>& arguments) {
+  if (error.get_exit_code() == 0) return program.exit(error);  // help, version
+  const std::string verb = about_verb(program, arguments);
+  if (!verb.empty()) return end_with(verb, 2);
+  const std::string of = arguments.front().front() == '-' ? "" : arguments.front() + " ";
+  return end_with(std::string(error.what()) + "; see oneac " + of + "--help", 2);
+}
+
+int end_with(const std::string& what, int code) {
+  std::cerr << "oneac: " << shortened(printable(what), kLongest) << '\n';
+  return code;
+}
+
+}  // namespace oneac::app

@@ -1,0 +1,17 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+namespace oneac {
+
+/// What keeps a path from being read as a file: "no such file", "is a folder", "is a pipe, …", or
+/// the system's reason; "" for a regular file and for a link to one. Opens nothing: a pipe without
+/// a writer would hold the program.
+[[nodiscard]] std::string fault_of_file(const std::filesystem::path& path);
+
+/// A number that stands for the content of a file (64 bits in hexadecimal), for telling builds
+/// apart, not against forgery; "" when the file cannot be read.
+[[nodiscard]] std::string content_hash(const std::filesystem::path& path);
+
+}  // namespace oneac

@@ -1,0 +1,48 @@
+#include "oneac/base/input_file.h"
+
+#include "oneac/test_support/temporary_folder.h"
+
+#include <gtest/gtest.h>
+#include <sys/stat.h>
+
+#include <fstream>
+
+namespace oneac {
+namespace {
+
+namespace fs = std::filesystem;
+
+TEST(InputFile, TakesFilesAndLinksToThem) {
+  const TemporaryFolder folder;
+  std::ofstream(folder.path() / "a") << "x";
+  fs::create_symlink("a", folder.path() / "link");
+  EXPECT_EQ(fault_of_file(folder.path() / "a"), "");
+  EXPECT_EQ(fault_of_file(folder.path() / "link"), "");
+}
+
+TEST(InputFile, SaysWhatElseAPathIs) {
+  const TemporaryFolder folder;
+  ASSERT_EQ(::mkfifo((folder.path() / "pipe").c_str(), 0600), 0);
+  fs::create_symlink("loop", folder.path() / "loop");
+  EXPECT_EQ(fault_of_file(folder.path() / "none"), "no such file");
+  EXPECT_EQ(fault_of_file(folder.path()), "is a folder");
+  EXPECT_EQ(fault_of_file(folder.path() / "pipe"), "is a pipe, a device or a socket, not a file");
+  EXPECT_NE(fault_of_file(folder.path() / "loop").find("cannot be read ("), std::string::npos);
+}
+
+TEST(InputFile, HashTellsContentsApart) {
+  const TemporaryFolder folder;
+  const auto hash = [&](const std::string& content) {
+    std::ofstream(folder.path() / "a", std::ios::binary) << content;
+    return content_hash(folder.path() / "a");
+  };
+  EXPECT_EQ(hash("one").size(), 16U);
+  EXPECT_EQ(hash("one"), hash("one"));
+  EXPECT_NE(hash("one"), hash("two"));
+  EXPECT_NE(hash("one"), hash(std::string("one\0", 4)));
+  EXPECT_NE(hash(std::string(3000000, 'a')), hash(std::string(2999999, 'a') + "b"));
+  EXPECT_EQ(content_hash(folder.path() / "none"), "");
+}
+
+}  // namespace
+}  // namespace oneac

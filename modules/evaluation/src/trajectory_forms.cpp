@@ -1,0 +1,268 @@
+#include "pose_rows.h"
+#include "text_io.h"
+
+#include "oneac/base/error.h"
+#include "oneac/base/number_text.h"
+#include "oneac/evaluation/statistics.h"
+#include "oneac/evaluation/trajectory_io.h"
+
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+#include <cstddef>
+#include <numeric>
+
+namespace oneac {
+namespace {
+
+/// What the columns of a line mean.
+enum class Form {
+  kMatrix,       ///< 12: KITTI
+  kTum,          ///< 8: time, position, qx qy qz qw
+  kSquare,       ///< 16: the same matrix with its last row
+  kTimedMatrix,  ///< 13: time, KITTI
+  kTimedSquare,  ///< 17: time, 16 numbers
+  kEuroc,        ///< 8 and more behind commas: time, position, qw qx qy qz
+  kTumCommas,    ///< the same with qw last
+  kBlock         ///< 4: a row of a matrix of four lines
+};
+
+constexpr double kTimeBound = 1e19;  // nanoseconds since 1970 have 1.8e18
+
+std::optional<double> parse_time(std::string_view field) {
+  double value = 0.0;
+  const char* end = field.data() + field.size();
+  const auto result = std::from_chars(field.data(), end, value);
+  if (result.ec != std::errc() || result.ptr != end) return std::nullopt;
+  if (!(std::abs(value) < kTimeBound)) return std::nullopt;
+  return value;
+}
+
+bool has_commas(std::string_view line) {
+  return line.find(',') != std::string_view::npos;
+}
+
+std::vector<std::string_view> fields_of(std::string_view line) {
+  return has_commas(line) ? split_at_commas(line) : split_at_blanks(line);
+}
+
+/// Of names such as "q_RS_w []" and "q_RS_x []", or "qw" and "qx": whether w is the last.
+bool names_qw_last(std::string_view text) {
+  const std::string_view line = text.substr(0, text.find('\n'));
+  std::size_t w = 0, x = 0, place = 0;
+  for (const std::string_view name : split_at_commas(line)) {
+    ++place;
+    const auto q = name.find('q');
+    if (q == std::string_view::npos) continue;
+    if (name.find('w', q) != std::string_view::npos) w = place;
+    if (name.find('x', q) != std::string_view::npos) x = place;
+  }
+  return w > x && x > 0;
+}
+
+std::optional<Form> form_of(std::string_view text, std::string_view first) {
+  const std::size_t columns = fields_of(first).size();
+  if (has_commas(first)) {
+    if (columns < 8) return std::nullopt;
+    return names_qw_last(text) ? Form::kTumCommas : Form::kEuroc;
+  }
+  switch (columns) {
+    case 4:
+      return Form::kBlock;
+    case 8:
+      return Form::kTum;
+    case 12:
+      return Form::kMatrix;
+    case 13:
+      return Form::kTimedMatrix;
+    case 16:
+      return Form::kSquare;
+    case 17:
+      return Form::kTimedSquare;
+    default:
+      return std::nullopt;
+  }
+}
+
+bool is_timed(Form form) {
+  return form != Form::kMatrix && form != Form::kSquare && form != Form::kBlock;
+}
+
+/// A line of numbers; the time, where there is one, apart.
+struct Row {
+  double time = 0.0;
+  std::vector<double> numbers;
+  std::string where;
+};
+
+[[noreturn]] void bad_number(const std::string& where, std::size_t column, std::string_view field) {
+  throw InputError(where,
+                   "column " + std::to_string(column) + " is '" + std::string(field) +
+                       "', not a finite number below 1e15",
+                   "remove the line or write the file again");
+}
+
+Row row_of(const TextLine& line, const std::string& file, bool timed) {
+  Row row;
+  row.where = where_in(file, line.number);
+  const auto fields = fields_of(line.text);
+  for (std::size_t i = 0; i < fields.size(); ++i) {
+    const bool is_time = timed && i == 0;
+    const auto value = is_time ? parse_time(fields[i]) : parse_finite(fields[i]);
+    if (!value) bad_number(row.where, i + 1, fields[i]);
+    if (is_time) {
+      row.time = *value;
+    } else {
+      row.numbers.push_back(*value);
+    }
+  }
+  return row;
+}
+
+Eigen::Isometry3d pose_of(const Row& row, Form form) {
+  const std::vector<double>& v = row.numbers;
+  if (form == Form::kEuroc) {
+    return internal::pose_of_quaternion({v[0], v[1], v[2], v[4], v[5], v[6], v[3]}, row.where);
+  }
+  if (form == Form::kTum || form == Form::kTumCommas) {
+    return internal::pose_of_quaternion({v[0], v[1], v[2], v[3], v[4], v[5], v[6]}, row.where);
+  }
+  if (v.size() == 16 && !(v[12] == 0.0 && v[13] == 0.0 && v[14] == 0.0 && v[15] == 1.0)) {
+    throw InputError(row.where, "the last row of the matrix is not 0 0 0 1",
+                     "write T_world_body row by row");
+  }
+  std::array<double, 12> upper{};
+  std::copy_n(v.begin(), upper.size(), upper.begin());
+  return internal::pose_of_matrix(upper, row.where);
+}
+
+/// Four lines become one.
+std::vector<Row> joined_blocks(const std::vector<Row>& rows, const std::string& file) {
+  if (rows.size() % 4 != 0) {
+    throw InputError(file, std::to_string(rows.size()) + " lines of 4 columns are no 4x4 matrices",
+                     "write four lines per pose");
+  }
+  std::vector<Row> joined;
+  for (std::size_t i = 0; i < rows.size(); i += 4) {
+    joined.push_back(rows[i]);
+    for (std::size_t k = i + 1; k < i + 4; ++k) {
+      joined.back().numbers.insert(joined.back().numbers.end(), rows[k].numbers.begin(),
+                                   rows[k].numbers.end());
+    }
+  }
+  return joined;
+}
+
+std::vector<Row> rows_of(const std::vector<TextLine>& lines, const std::string& file, Form form) {
+  std::vector<Row> rows;
+  for (const TextLine& line : lines) {
+    rows.push_back(row_of(line, file, is_timed(form)));
+    if (rows.back().numbers.size() == rows.front().numbers.size()) continue;
+    throw InputError(rows.back().where,
+                     std::to_string(fields_of(line.text).size()) + " columns, must be " +
+                         std::to_string(fields_of(lines.front().text).size()),
+                     "write every pose in the same form");
+  }
+  return form == Form::kBlock ? joined_blocks(rows, file) : rows;
+}
+
+struct TimeUnit {
+  const char* name;
+  double seconds;
+};
+constexpr std::array<TimeUnit, 4> kUnits{
+    {{"seconds", 1.0}, {"milliseconds", 1e-3}, {"microseconds", 1e-6}, {"nanoseconds", 1e-9}}};
+
+/// By their size when they count from 1970 (the years 1973 to 5138), else by their spacing: poses
+/// are 4 ms to 4 s apart, and closer ones are told in seconds.
+TimeUnit unit_of(const std::vector<Row>& rows) {
+  constexpr double kEarliest_s = 1e8, kLatest_s = 1e11, kWidest_s = 4.0;
+  const double first = std::abs(rows.front().time);
+  if (first >= kEarliest_s) {
+    for (const TimeUnit& unit : kUnits) {
+      if (first * unit.seconds < kLatest_s) return unit;
+    }
+  }
+  std::vector<double> spacings;
+  for (std::size_t i = 1; i < rows.size(); ++i) {
+    spacings.push_back(std::abs(rows[i].time - rows[i - 1].time));
+  }
+  if (spacings.empty()) return kUnits.front();
+  const double spacing = percentile(std::move(spacings), 50.0);
+  for (const TimeUnit& unit : kUnits) {
+    if (spacing * unit.seconds < kWidest_s) return unit;
+  }
+  return kUnits.front();
+}
+
+/// In order of time, each time once: of several rows with one stamp the first.
+void put_in_order(std::vector<Row>& rows, const std::string& file,
+                  std::vector<std::string>& notes) {
+  const auto earlier = [](const Row& a, const Row& b) { return a.time < b.time; };
+  if (!std::is_sorted(rows.begin(), rows.end(), earlier)) {
+    notes.push_back(file + " is not in order of time and was sorted");
+    std::stable_sort(rows.begin(), rows.end(), earlier);
+  }
+  const std::size_t before = rows.size();
+  rows.erase(std::unique(rows.begin(), rows.end(),
+                         [](const Row& a, const Row& b) { return !(a.time < b.time); }),
+             rows.end());
+  if (rows.size() == before) return;
+  notes.push_back(file + " has " + std::to_string(before - rows.size()) +
+                  " rows with the stamp of another one: the first of each was taken");
+}
+
+/// A file that is called .tum or .kitti is one.
+void require_named_form(const std::filesystem::path& path, Form form, const TextLine& first) {
+  const std::string name = path.extension().string();
+  const bool misnamed =
+      (name == ".tum" && form != Form::kTum) || (name == ".kitti" && form != Form::kMatrix);
+  if (!misnamed) return;
+  throw InputError(where_in(path.string(), first.number),
+                   std::to_string(fields_of(first.text).size()) + " columns, must be " +
+                       (name == ".tum" ? "8" : "12"),
+                   "call a trajectory of another form .txt or .csv");
+}
+
+/// A first line of names.
+void drop_names(std::vector<TextLine>& lines) {
+  const auto first = static_cast<unsigned char>(lines.front().text.front());
+  if (lines.size() > 1 && std::isalpha(first) != 0 && has_commas(lines.front().text)) {
+    lines.erase(lines.begin());
+  }
+}
+
+}  // namespace
+
+TrajectoryFile read_trajectory_file(const std::filesystem::path& path) {
+  const std::string file = path.string(), text = read_text(path);
+  auto lines = data_lines(text);
+  if (lines.empty()) throw InputError(file, "has no poses", "write or copy it again");
+  drop_names(lines);
+  const auto form = form_of(text, lines.front().text);
+  if (!form) {
+    throw InputError(
+        where_in(file, lines.front().number),
+        std::to_string(fields_of(lines.front().text).size()) +
+            " columns, must be 12 (KITTI) or 8 (TUM), or those of EuRoC or 4x4 matrices",
+        "name a trajectory in one of these formats");
+  }
+  require_named_form(path, *form, lines.front());
+  TrajectoryFile result;
+  std::vector<Row> rows = rows_of(lines, file, *form);
+  if (is_timed(*form)) {
+    const TimeUnit unit = unit_of(rows);
+    if (unit.seconds < 1.0) result.notes.push_back(file + " is stamped in " + unit.name);
+    put_in_order(rows, file, result.notes);
+    for (const Row& row : rows) result.trajectory.times.push_back(row.time * unit.seconds);
+  }
+  for (const Row& row : rows) result.trajectory.poses.push_back(pose_of(row, *form));
+  return result;
+}
+
+Trajectory read_trajectory(const std::filesystem::path& path) {
+  if (path.extension() == ".kitti") return read_kitti(path);
+  return read_trajectory_file(path).trajectory;
+}
+
+}  // namespace oneac

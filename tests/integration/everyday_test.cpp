@@ -1,0 +1,332 @@
+// What people do with files, folders, names and clocks.
+#include "drive_fixture.h"
+
+#include <gtest/gtest.h>
+#include <sys/stat.h>
+
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <filesystem>
+#include <sstream>
+#include <string>
+#include <vector>
+
+namespace oneac {
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::json;
+
+const std::string kLatin1 =
+    "stra\xdf"
+    "e";
+const std::string kShown =
+    "stra\xef\xbf\xbd"
+    "e";
+
+class Everyday : public DriveFixture {
+ protected:
+  [[nodiscard]] fs::path copy_of_drive(const std::string& name) const {
+    fs::copy(drive(), scratch() / name, fs::copy_options::recursive);
+    return scratch() / name / "simulated.rawlog";
+  }
+  [[nodiscard]] ProgramResult run(const fs::path& path, std::vector<std::string> extra = {}) const {
+    std::vector<std::string> arguments{"run", path.string(), "-o", out(), "--no-progress"};
+    arguments.insert(arguments.end(), extra.begin(), extra.end());
+    return oneac_program(arguments);
+  }
+  [[nodiscard]] Json summary() const {
+    return Json::parse(read_file(fs::path(out()) / "summary.json"));
+  }
+  [[nodiscard]] std::ptrdiff_t rows() const {
+    const std::string poses = read_file(fs::path(out()) / "trajectory_camera.kitti");
+    return std::count(poses.begin(), poses.end(), '\n');
+  }
+  /// The drive's images as a KITTI folder, and its log.
+  [[nodiscard]] fs::path imported() const {
+    const fs::path folder = scratch() / "sequence";
+    fs::create_directories(folder / "image_0");
+    std::vector<fs::path> images;
+    for (const auto& entry : fs::directory_iterator(drive() / "Images")) {
+      images.push_back(entry.path());
+    }
+    std::sort(images.begin(), images.end());
+    for (std::size_t i = 0; i < images.size(); ++i) {
+      fs::copy(images[i], folder / "image_0" / (std::to_string(i) + ".jpg"));
+    }
+    write_text(folder / "calib.txt", "P0: 250 0 159.5 0 0 250 119.5 0 0 0 1 0\n");
+    fs::copy(drive() / "poses.txt", folder / "poses.txt");
+    const fs::path log = scratch() / "imported.rawlog";
+    const ProgramResult made = oneac_program(
+        {"import", "kitti", folder.string(), "-o", log.string(), "--camera-height", "1.5"});
+    EXPECT_EQ(made.exit_code, 0) << made.err;
+    return log;
+  }
+};
+
+void expect_refused(const ProgramResult& result, const std::vector<std::string>& words) {
+  EXPECT_EQ(result.exit_code, 2) << result.err;
+  EXPECT_EQ(std::count(result.err.begin(), result.err.end(), '\n'), 1) << result.err;
+  for (const std::string& word : words) {
+    EXPECT_NE(result.err.find(word), std::string::npos) << "'" << word << "' not in " << result.err;
+  }
+}
+
+TEST_F(Everyday, NamesThatAreNoUtf8GiveResultsAndAreShownWithReplacements) {
+  const fs::path log = copy_of_drive(kLatin1);
+  const fs::path folder = scratch() / ("out " + kLatin1);
+  const ProgramResult result = oneac_program({"run", log.string(), "-o", folder.string()});
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  const Json summary = Json::parse(read_file(folder / "summary.json"));
+  EXPECT_NE(summary["log"].get<std::string>().find(kShown), std::string::npos);
+  EXPECT_TRUE(fs::exists(folder / "report.html"));
+  const fs::path poses = scratch() / (kLatin1 + ".txt");
+  fs::copy(drive() / "poses.txt", poses);
+  const ProgramResult compared =
+      oneac_program({"compare", log.string(), "-o", (folder / "c").string(), "--reference",
+                     poses.string(), "--initialisers", "5pc"});
+  ASSERT_EQ(compared.exit_code, 0) << compared.err;
+  EXPECT_NE(read_file(folder / "c" / "report.html").find(kShown), std::string::npos);
+  const ProgramResult merged =
+      oneac_program({"compare", "--merge", (folder / "c").string(), "-o", (folder / "m").string()});
+  EXPECT_EQ(merged.exit_code, 0) << merged.err;
+}
+
+TEST_F(Everyday, AFolderHoldsTheFilesOfOneRun) {
+  ASSERT_EQ(run(log()).exit_code, 0);
+  const fs::path folder(out());
+  ASSERT_TRUE(fs::exists(folder / "keyframes.tum"));
+  write_text(folder / "my notes.txt", "mine");
+  ASSERT_EQ(run(log(), {"--count", "1"}).exit_code, 0);
+  EXPECT_EQ(rows(), 1);
+  for (const char* stale : {"graph.g2o", "map.simplemap", "points.ply", "mask.png"}) {
+    if (!fs::exists(folder / stale)) continue;
+    EXPECT_GE(fs::last_write_time(folder / stale), fs::last_write_time(folder / "tilt.csv"))
+        << stale;
+  }
+  EXPECT_EQ(read_file(folder / "my notes.txt"), "mine");
+}
+
+TEST_F(Everyday, ARunThatFailsBeforeItsFirstFrameLeavesNoOtherDrivesResults) {
+  ASSERT_EQ(run(log()).exit_code, 0);
+  expect_refused(run(scratch() / "mistyped.rawlog"), {"mistyped.rawlog", "no such file"});
+  EXPECT_EQ(rows(), kFrames);  // it was no run
+  expect_refused(run(log(), {"--camera", "REAR"}), {"REAR"});
+  EXPECT_FALSE(fs::exists(fs::path(out()) / "trajectory_camera.kitti"));
+  EXPECT_FALSE(fs::exists(fs::path(out()) / "summary.json"));
+}
+
+TEST_F(Everyday, WhatCameBeforeAFaultIsWrittenAtAnyNumberOfThreads) {
+  const fs::path other = scratch() / "other";
+  ASSERT_EQ(oneac_program({"simulate", "-o", other.string(), "--frames", "4", "--width", "320",
+                           "--height", "240", "--focal", "260"})
+                .exit_code,
+            0);
+  const fs::path calibration = copy_of_drive("calibration"), image = copy_of_drive("image");
+  write_text(calibration, read_file(calibration) + read_file(other / "simulated.rawlog"));
+  std::vector<fs::path> images;
+  for (const auto& entry : fs::directory_iterator(image.parent_path() / "Images")) {
+    images.push_back(entry.path());
+  }
+  std::sort(images.begin(), images.end());
+  write_text(images[5], "no picture");
+  for (const auto& [log, expected] : {std::pair(calibration, kFrames), std::pair(image, 5)}) {
+    Json first;
+    for (const char* threads : {"1", "2", "4", "8", "16"}) {
+      EXPECT_EQ(run(log, {"--threads", threads}).exit_code, 2);
+      EXPECT_EQ(rows(), expected) << log << " with " << threads << " threads";
+      Json now = summary();
+      now.erase("timing");
+      if (first.is_null()) first = now;
+      EXPECT_EQ(now, first) << threads << " threads";
+    }
+  }
+}
+
+TEST_F(Everyday, GravityThatIsNotInTheLogIsSaidAndWhatWasUsedInstead) {
+  const ProgramResult result = run(imported(), {"--set", "front_end.tilt.source=imu"});
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_NE(result.err.find("holds no acceleration"), std::string::npos) << result.err;
+  EXPECT_EQ(summary()["tilt_source"], "log");
+  ASSERT_EQ(run(log(), {"--set", "front_end.tilt.source=imu"}).exit_code, 0);
+  EXPECT_EQ(summary()["tilt_source"], "imu");
+}
+
+TEST_F(Everyday, OnlyFilesAreReadAndReplaced) {
+  const fs::path pipe = scratch() / "pipe";
+  ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);
+  expect_refused(run(pipe), {"pipe", "not a file"});
+  expect_refused(run(log(), {"--reference", pipe.string()}), {"pipe"});
+  expect_refused(oneac_program({"info", pipe.string()}), {"pipe", "not a file"});
+  expect_refused(oneac_program({"eval", pipe.string(), (drive() / "poses.txt").string()}),
+                 {"pipe"});
+  fs::create_directories(out());
+  ASSERT_EQ(::mkfifo((fs::path(out()) / "summary.json").c_str(), 0600), 0);
+  const ProgramResult result = run(log());
+  EXPECT_NE(result.exit_code, 0);
+  EXPECT_NE(result.err.find("summary.json"), std::string::npos) << result.err;
+  EXPECT_TRUE(fs::is_fifo(fs::path(out()) / "summary.json"));
+}
+
+TEST_F(Everyday, ALinkAsOutputStaysAndIsWrittenThrough) {
+  fs::create_directories(out());
+  fs::create_symlink("../far.json", fs::path(out()) / "summary.json");
+  ASSERT_EQ(run(log()).exit_code, 0);
+  ASSERT_EQ(run(log()).exit_code, 0);
+  EXPECT_TRUE(fs::is_symlink(fs::path(out()) / "summary.json"));
+  EXPECT_EQ(Json::parse(read_file(scratch() / "far.json"))["metric"], summary()["metric"]);
+}
+
+TEST_F(Everyday, ALinkToALogFindsWhatLiesBesideTheLog) {
+  fs::create_directories(scratch() / "links");
+  const fs::path link = scratch() / "links" / "today.rawlog";
+  fs::create_symlink(log(), link);
+  const ProgramResult result = run(link);
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_EQ(rows(), kFrames);
+  EXPECT_NE(result.out.find("against"), std::string::npos) << result.out;
+}
+
+TEST_F(Everyday, APackedLogFindsTheImagesOfItsPlainName) {
+  const fs::path folder = scratch() / "packed";
+  fs::create_directories(folder);
+  fs::copy(log(), folder / "drive.rawlog.gz");
+  fs::copy(drive() / "Images", folder / "drive_Images");
+  fs::copy(drive() / "poses.txt", folder / "drive_poses.txt");
+  const ProgramResult result = run(folder / "drive.rawlog.gz");
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_NE(result.out.find("drive_poses.txt"), std::string::npos) << result.out;
+}
+
+TEST_F(Everyday, AMistypedVerbIsNamedWithTheNearestOne) {
+  expect_refused(oneac_program({"rn", log()}), {"'rn'", "did you mean 'run'"});
+  expect_refused(oneac_program({}), {"no verb", "run"});
+}
+
+TEST_F(Everyday, ValuesAreQuotedShortAndHarmless) {
+  const std::string nasty = "\x1b[2J" + std::string(100000, 'a');
+  for (const std::vector<std::string>& arguments :
+       {std::vector<std::string>{"run", log(), "-o", out(), "--camera", nasty},
+        std::vector<std::string>{"run", log(), "-o", out(), "--set", nasty},
+        std::vector<std::string>{"run", log(), "-o", out(), "--set", "run.threads=" + nasty},
+        std::vector<std::string>{nasty}, std::vector<std::string>{"run", "--" + nasty},
+        std::vector<std::string>{"run", log(), "-o", nasty}}) {
+    const ProgramResult result = oneac_program(arguments);
+    EXPECT_EQ(result.exit_code, 2);
+    EXPECT_LT(result.err.size(), 4000U);
+    EXPECT_EQ(result.err.find('\x1b'), std::string::npos);
+    EXPECT_EQ(std::count(result.err.begin(), result.err.end(), '\n'), 1) << result.err;
+  }
+}
+
+TEST_F(Everyday, ALoopOfLinksOrTooLongANameIsOneLine) {
+  fs::create_symlink("loop", scratch() / "loop");
+  const std::vector<std::string> names{(scratch() / "loop").string(),
+                                       (scratch() / std::string(300, 'a')).string()};
+  for (const std::string& name : names) {
+    expect_refused(oneac_program({"run", log(), "-o", name}), {"output folder"});
+    expect_refused(oneac_program({"compare", log(), "-o", name, "--initialisers", "5pc"}),
+                   {"output folder"});
+    expect_refused(oneac_program({"simulate", "-o", name, "--frames", "2"}), {});
+    expect_refused(oneac_program({"run", name, "-o", out()}), {});
+    expect_refused(oneac_program({"run", log(), "-o", out(), "--params", name}), {});
+    expect_refused(oneac_program({"run", log(), "-o", out(), "--images-dir", name}), {});
+  }
+}
+
+TEST_F(Everyday, MessagesNameTheKeyOrFlagThatWasTyped) {
+  for (const char* key : {"front_end.window.refine.affine_noise", "front_end.refine.affine_noise",
+                          "front_end.consensus.threshold_px", "front_end.features.klt.levels"}) {
+    expect_refused(run(log(), {"--set", std::string(key) + "=-1"}), {std::string(key) + " = -1"});
+  }
+  expect_refused(run(log(), {"--set", "front_end.window.fixed=99"}),
+                 {"front_end.window.fixed = 99"});
+  expect_refused(oneac_program({"simulate", "-o", out(), "--camera-height", "0"}),
+                 {"--camera-height = 0"});
+  expect_refused(oneac_program({"simulate", "-o", out(), "--rolling-shutter", "9"}),
+                 {"--rolling-shutter = 9"});
+}
+
+TEST_F(Everyday, MissingRightImagesAreSaidOnceWithCounts) {
+  const fs::path folder = scratch() / "stereo";
+  ASSERT_EQ(oneac_program({"simulate", "-o", folder.string(), "--frames", "6", "--width", "320",
+                           "--height", "240", "--focal", "250", "--stereo"})
+                .exit_code,
+            0);
+  std::vector<fs::path> right;
+  for (const auto& entry : fs::directory_iterator(folder / "Images")) {
+    if (entry.path().filename().string().find("right") != std::string::npos) {
+      right.push_back(entry.path());
+    }
+  }
+  std::sort(right.begin(), right.end());
+  ASSERT_EQ(right.size(), 6U);
+  const std::vector<std::string> by_stereo{"--set", "front_end.scale.source=stereo"};
+  const ProgramResult whole = run(folder / "simulated.rawlog", by_stereo);
+  EXPECT_EQ(whole.err.find("right image"), std::string::npos) << whole.err;
+  fs::remove(right[1]);
+  fs::remove(right[4]);
+  const ProgramResult result = run(folder / "simulated.rawlog", by_stereo);
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  const auto first = result.err.find("2 of 6 images have no right image");
+  ASSERT_NE(first, std::string::npos) << result.err;
+  EXPECT_EQ(result.err.find("no right image", first + 40), std::string::npos) << result.err;
+}
+
+TEST_F(Everyday, TheProgressBarKeepsToItsLine) {
+  const std::string command = "stty cols 40; " + std::string(ONEAC_PROGRAM) + " run " + log() +
+                              " -o " + out() + " >/dev/null";
+  const ProgramResult result = run_program({"script", "-qec", command, "/dev/null"});
+  const std::string shown = result.out + result.err;
+  ASSERT_NE(shown.find(" of " + std::to_string(kFrames) + " frames"), std::string::npos) << shown;
+  for (std::size_t at = shown.find('\r'); at != std::string::npos;) {
+    const auto next = shown.find('\r', at + 1);
+    const std::string line = shown.substr(at + 1, next - at - 1);
+    if (line.find("frames") != std::string::npos) {
+      EXPECT_LT(line.find("\x1b"), 40U) << line;
+    }
+    at = next;
+  }
+}
+
+TEST_F(Everyday, EvalKnowsOtherClocksAndForms) {
+  ASSERT_EQ(run(log()).exit_code, 0);
+  const fs::path estimate = fs::path(out()) / "trajectory_camera.tum";
+  const auto eval = [&](const fs::path& reference, std::vector<std::string> extra) {
+    std::vector<std::string> arguments{"eval", estimate.string(), reference.string(), "--json"};
+    arguments.insert(arguments.end(), extra.begin(), extra.end());
+    return oneac_program(arguments);
+  };
+  // The estimate itself in nanoseconds, 50 s late, behind commas, its scalar first.
+  std::string euroc = "#timestamp [ns],x,y,z,qw,qx,qy,qz\n", unsorted;
+  std::istringstream lines(read_file(estimate));
+  for (std::string line; std::getline(lines, line);) {
+    std::istringstream fields(line);
+    std::vector<std::string> f;
+    for (std::string field; fields >> field;) f.push_back(field);
+    euroc += std::to_string(static_cast<long long>((std::stod(f[0]) + 50.0) * 1e6)) + "000," +
+             f[1] + "," + f[2] + "," + f[3] + "," + f[7] + "," + f[4] + "," + f[5] + "," + f[6] +
+             "\n";
+    unsorted = line + "\n" + line + "\n" + unsorted;
+  }
+  write_text(scratch() / "euroc.csv", euroc);
+  write_text(scratch() / "unsorted.txt", unsorted);
+  expect_refused(eval(scratch() / "euroc.csv", {}), {"no frame in common", "--offset"});
+  const ProgramResult good = eval(scratch() / "euroc.csv", {"--offset", "50"});
+  ASSERT_EQ(good.exit_code, 0) << good.err;
+  EXPECT_EQ(Json::parse(good.out)["trajectory"]["frames"], kFrames);
+  EXPECT_EQ(Json::parse(good.out)["offset_s"], 50.0);
+  EXPECT_LT(Json::parse(good.out)["trajectory"]["ape_m"]["max"].get<double>(), 0.01);
+  const ProgramResult sorted = eval(scratch() / "unsorted.txt", {});
+  ASSERT_EQ(sorted.exit_code, 0) << sorted.err;
+  EXPECT_EQ(Json::parse(sorted.out)["trajectory"]["frames"], kFrames);
+  const ProgramResult between = eval(scratch() / "unsorted.txt", {"--offset", "0.05"});
+  ASSERT_EQ(between.exit_code, 0) << between.err;
+  EXPECT_NE(between.err.find("lie between rows"), std::string::npos) << between.err;
+  expect_refused(eval(scratch() / "unsorted.txt", {"--offset", "soon"}), {"--offset soon"});
+  expect_refused(eval(scratch() / "unsorted.txt", {"--max-difference", "-1"}), {});
+}
+
+}  // namespace
+}  // namespace oneac
