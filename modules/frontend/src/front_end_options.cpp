@@ -21,6 +21,10 @@ void ScaleOptions::validate() const {
           "at least scale.acceleration");
 }
 
+void SelfCalibrationOptions::validate() const {
+  check_bounds("front_end.calibration", *this);
+}
+
 void FrontEndOptions::validate() const {
   check_bounds("front_end", *this);
   require(camera_height == 0.0 || CameraHeight::is_plausible(camera_height),
@@ -29,6 +33,7 @@ void FrontEndOptions::validate() const {
                      mount_convention == "x_forward";
   require(known, "front_end.mount_convention", mount_convention, "auto, optical or x_forward");
   if (calibration) calibration->validate();
+  self_calibration.validate();
   tilt.validate();
   features.validate();
   InitialiserOptions{estimator, consensus, gc_ransac}.validate();

@@ -105,6 +105,13 @@ PinholeCamera CameraReader::rectified_camera(const GreyImage& image) const {
   return state_->undistorter.rectified_camera(image);
 }
 
+PinholeCamera CameraReader::raw_camera(const GreyImage& image) const {
+  PinholeCamera camera = state_->camera;
+  camera.width = image.width();
+  camera.height = image.height();
+  return camera;
+}
+
 bool CameraReader::undistorts() const {
   return state_->camera.is_distorted();
 }

@@ -90,7 +90,9 @@ CameraReaderOptions RawlogSource::Impl::reader_options() const {
   options.mount_convention = options_.mount_convention;
   options.stereo = options_.stereo;
   options.mount = options_.mount;
-  if (!options_.calibration.empty()) {
+  if (options_.camera_model) {
+    options.calibration = options_.camera_model;
+  } else if (!options_.calibration.empty()) {
     options.calibration = load_calibration(options_.calibration, chosen_.side_name);
   }
   return options;
@@ -184,6 +186,7 @@ CameraFrame RawlogSource::Impl::load(const FrameTicket& ticket) const {
   frame.time_s = ticket.time_s;
   frame.name = ticket.name;
   frame.camera = camera_.rectified_camera(frame.image);
+  frame.raw_camera = camera_.raw_camera(frame.image);
   frame.T_vehicle_cam = payload.T_vehicle_cam;
   return frame;
 }

@@ -69,6 +69,8 @@ class CameraReader {
   [[nodiscard]] GreyImage rectify(GreyImage grey, const std::string& name) const;
   /// The camera of the rectified images.
   [[nodiscard]] PinholeCamera rectified_camera(const GreyImage& image) const;
+  /// The calibration in use, of the images as they are stored.
+  [[nodiscard]] PinholeCamera raw_camera(const GreyImage& image) const;
   /// The calibration in use has distortion: images are taken for raw.
   [[nodiscard]] bool undistorts() const;
 

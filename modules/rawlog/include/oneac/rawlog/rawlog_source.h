@@ -19,11 +19,12 @@ struct SourceOptions {
   std::filesystem::path images_dir;  ///< folder of external images; empty: searched, see docs
   std::string camera;  ///< "left", "right", a sensor label, or "" when the log leaves no choice
   std::string calibration;  ///< FILE[:SECTION] that overrides the log's; "" keeps the log's
-  std::string mount_convention = "auto";  ///< "auto", "optical" or "x_forward" sensor poses
-  std::optional<MountAngles> mount;       ///< instead of the orientation of the sensor poses
-  std::size_t first = 0;                  ///< first image of the camera to use
-  std::size_t count = 0;                  ///< images to use at most; 0: all
-  std::size_t every = 1;                  ///< use every K-th image from `first` on; ≥ 1
+  std::optional<PinholeCamera> camera_model;  ///< the same by value; goes before `calibration`
+  std::string mount_convention = "auto";      ///< "auto", "optical" or "x_forward" sensor poses
+  std::optional<MountAngles> mount;           ///< instead of the orientation of the sensor poses
+  std::size_t first = 0;                      ///< first image of the camera to use
+  std::size_t count = 0;                      ///< images to use at most; 0: all
+  std::size_t every = 1;                      ///< use every K-th image from `first` on; ≥ 1
   bool stereo = false;  ///< load the right image beside the left one, where it exists
 
   /// @throws InputError naming flag, value and bound
