@@ -105,7 +105,8 @@ void measure(const Pass& pass, const PinholeCamera& tracked_with, double min_tur
 }  // namespace
 
 bool Calibration::knows_focal() const {
-  return !bends.empty() && estimate.sigma(kFocal) < 0.5 * prior.focal;
+  return bends.size() >= IntrinsicsBelief::kFewestWindows &&
+         estimate.sigma(kFocal) < 0.5 * prior.focal;
 }
 
 void CalibrateOptions::validate() const {

@@ -152,6 +152,10 @@ std::string verdict_of(const Calibration& c) {
            " degrees within twelve keyframes at most; drive some bends of 30 degrees and more, "
            "near houses or parked cars";
   }
+  if (c.bends.size() < IntrinsicsBelief::kFewestWindows) {
+    return "this drive has one bend only and nothing confirms what it says of the focal length; "
+           "drive some bends of 30 degrees and more, near houses or parked cars";
+  }
   const double sigma = c.estimate.sigma(kFocal);
   const std::string bends =
       std::to_string(c.bends.size()) + (c.bends.size() == 1 ? " bend" : " bends");

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
 namespace oneac {
 namespace {
@@ -14,6 +15,14 @@ namespace {
 constexpr double kCorrelation = 4.0;
 // [-] information that makes no matrix singular.
 constexpr double kNothing = 1e-9;
+
+/// What a scatter of few windows is worth less: Student's 90 % quantile over the normal one.
+double student_factor(std::size_t windows) {
+  constexpr double kFactors[] = {3.84, 1.78, 1.43, 1.30, 1.23, 1.18};  // of 2 to 7 windows
+  if (windows < 2) return kFactors[0];
+  if (windows - 2 < std::size(kFactors)) return kFactors[windows - 2];
+  return 1.0 + 1.06 / static_cast<double>(windows - 1);
+}
 
 /// Λ⁻¹ (Σ g gᵀ) Λ⁻¹ · W / (W − 1); zero for less than two windows.
 IntrinsicsMatrix scatter_of(const std::vector<IntrinsicsMeasurement>& measured,
@@ -46,9 +55,12 @@ void IntrinsicsBelief::add(const IntrinsicsMeasurement& measured) {
 
 IntrinsicsEstimate IntrinsicsBelief::estimate() const {
   constexpr double kShare = 1.0 / (kCorrelation * kCorrelation);
+  // What one window says nothing confirms: it may be full of traffic.
+  const bool confirmed = measured_.size() >= kFewestWindows;
   IntrinsicsMatrix information = IntrinsicsMatrix::Zero();
   IntrinsicsVector pull = IntrinsicsVector::Zero();
   for (const IntrinsicsMeasurement& m : measured_) {
+    if (!confirmed) break;
     information += kShare * m.information;
     pull += kShare * m.pull;
   }
@@ -64,10 +76,13 @@ IntrinsicsEstimate IntrinsicsBelief::estimate() const {
                            .diagonal()
                            .cwiseMax(0.0)
                            .cwiseSqrt();
+  if (!confirmed) return result;
   const IntrinsicsMatrix scatter =
       scatter_of(measured_, result.covariance, result.change) * (kShare * kShare);
+  const double few = student_factor(measured_.size());
   for (int i = 0; i < kIntrinsics; ++i) {
-    const double more = std::sqrt(std::max(scatter(i, i) / result.covariance(i, i), 1.0));
+    const double more =
+        std::sqrt(std::max(few * few * scatter(i, i) / result.covariance(i, i), 1.0));
     result.covariance.row(i) *= more;
     result.covariance.col(i) *= more;
   }

@@ -37,6 +37,15 @@ TEST(IntrinsicsBelief, WindowsThatAgreeAddUpAndLeaveTheRestToThePrior) {
   EXPECT_NEAR(estimate.sigma(kK1), IntrinsicsPrior{}.k1, 1e-12);
 }
 
+TEST(IntrinsicsBelief, OneWindowAloneMovesNothing) {
+  IntrinsicsBelief belief(true_camera(), {});
+  belief.add(focal_measurement(0.15, 0.005));
+  const IntrinsicsEstimate estimate = belief.estimate();
+  EXPECT_EQ(estimate.camera.fx, true_camera().fx);
+  EXPECT_NEAR(estimate.sigma(kFocal), IntrinsicsPrior{}.focal, 1e-12);
+  EXPECT_EQ(estimate.windows, 1U);
+}
+
 TEST(IntrinsicsBelief, WindowsThatContradictEachOtherMakeItLessSure) {
   IntrinsicsBelief belief(true_camera(), {});
   for (const double focal : {0.04, -0.03, 0.05, -0.04}) {

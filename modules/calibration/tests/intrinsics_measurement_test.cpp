@@ -56,6 +56,7 @@ TEST(MeasureIntrinsics, AStraightRoadLeavesTheFocalLengthToThePrior) {
   EXPECT_LT(std::abs(measured->change[kFocal]), 0.01);
   IntrinsicsBelief belief(wrong_camera(1.05, 0.0), {});
   belief.add(*measured);
+  belief.add(*measured);
   EXPECT_GT(belief.estimate().sigma(kFocal), 0.9 * IntrinsicsPrior{}.focal);
 }
 

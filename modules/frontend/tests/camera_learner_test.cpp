@@ -26,7 +26,8 @@ void drive_on(CameraLearner& learner, double turn, double true_focal_factor) {
         // Tracks of one bend end before the next.
         keyframe.sightings.push_back({1000U * seed + seen.track, learner.used().normalise(seen.u)});
       }
-      learner.follow(keyframe, index++, 0.1 * static_cast<double>(index));
+      learner.follow(keyframe, index, 0.1 * static_cast<double>(index));
+      ++index;
     }
   }
   learner.finish();

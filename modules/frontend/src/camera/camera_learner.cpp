@@ -11,9 +11,9 @@ namespace {
 
 // [tracks] of a window that is measured on the way: half of what an idle calibration takes.
 constexpr std::size_t kMostTracks = 200;
-// [σ] and [-] of ln f: a focal length that is wrong by less leaves lengths within the two σ of the
-// road's two per cent; and one bend, which a crossing bus may fill, accuses nobody.
-constexpr double kSure = 3.0, kTolerated = 0.04;
+// [σ] and [-] of ln f: lengths by the road are wrong as the focal length is, and three per cent are
+// what is taken for granted of it. One bend, which a crossing bus may fill, accuses nobody.
+constexpr double kSure = 3.0, kTolerated = 0.03;
 constexpr std::size_t kFewestBends = 2;
 
 }  // namespace

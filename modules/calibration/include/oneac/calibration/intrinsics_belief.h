@@ -24,9 +24,12 @@ struct IntrinsicsEstimate {
 /// Its covariance is the larger of two, unknown by unknown: that of the residuals, times
 /// kCorrelation since the errors of a track are not independent, and the cluster-robust one
 /// (sandwich) of what the windows say against each other, Λ⁻¹ (Σ g gᵀ) Λ⁻¹ · W / (W − 1) with the
-/// scores g of W windows [Liang and Zeger 1986], which also knows what the model leaves out.
+/// scores g of W windows [Liang and Zeger 1986], which also knows what the model leaves out, times
+/// Student's factor for few of them. One window alone moves nothing: its scatter is not known.
 class IntrinsicsBelief {
  public:
+  static constexpr std::size_t kFewestWindows = 2;
+
   IntrinsicsBelief(const PinholeCamera& from, const IntrinsicsPrior& prior);
 
   void add(const IntrinsicsMeasurement& measured);
