@@ -16,6 +16,7 @@ int main(int argc, char** argv) {
   program.require_subcommand(1);
   oneac::app::add_info(program);
   oneac::app::add_run(program);
+  oneac::app::add_calibrate(program);
   oneac::app::add_compare(program);
   oneac::app::add_features(program);
   oneac::app::add_import(program);

@@ -16,7 +16,7 @@ class Verbs : public DriveFixture {};
 TEST_F(Verbs, HelpNamesEveryVerbAndEachHasItsOwn) {
   const ProgramResult all = oneac_program({"--help"});
   EXPECT_EQ(all.exit_code, 0);
-  for (const char* verb : {"info", "run", "import", "simulate", "eval"}) {
+  for (const char* verb : {"info", "run", "calibrate", "import", "simulate", "eval"}) {
     EXPECT_NE(all.out.find(verb), std::string::npos) << verb;
     EXPECT_EQ(oneac_program({verb, "--help"}).exit_code, 0) << verb;
   }

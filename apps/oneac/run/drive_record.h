@@ -28,10 +28,12 @@ struct DriveRecord {
   std::vector<double> decode_ms;    ///< one per frame
   Eigen::Isometry3d T_vehicle_cam = CameraFrame::forward_looking_mount();  ///< as the log says
   PinholeCamera camera;
-  std::string tilt_source;    ///< that was used: front_end.tilt.source, or what stood in for it
-  std::string tilt_fallback;  ///< one line when another one stood in, else ""
-  Tilt given_tilt;            ///< from the log or the parameters
-  TiltBelief tilt_belief;     ///< with its 1σ, at the end
+  std::string tilt_source;     ///< that was used: front_end.tilt.source, or what stood in for it
+  std::string tilt_fallback;   ///< one line when another one stood in, else ""
+  PinholeCamera raw_camera;    ///< of the images as they are stored
+  CameraBelief camera_belief;  ///< what bends say of it, at the end
+  Tilt given_tilt;             ///< from the log or the parameters
+  TiltBelief tilt_belief;      ///< with its 1σ, at the end
   double scale_uncertainty = 0.0;    ///< relative 1σ of the map's lengths at the end
   double common_length_sigma = 0.0;  ///< relative 1σ of length that all steps share
   Tilt tilt;                         ///< as believed at the end

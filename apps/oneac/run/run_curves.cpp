@@ -195,6 +195,21 @@ std::vector<Plot> error_plots(const DriveRecord& record, const RunEvaluation& ev
   return {rotation, direction};
 }
 
+/// The focal length as bend after bend tells it, with 1σ on both sides.
+Plot focal_plot(const DriveRecord& record) {
+  Plot plot{"Focal length by the bends", "time [s]", "px", {}};
+  PlotSeries best{"by the bends", {}, {}, Pen::kMarkers}, low{"−1σ", {}, {}}, high{"+1σ", {}, {}};
+  for (const FocalMoment& moment : record.camera_belief.history) {
+    const double time = moment.time_s - record.frames.front().time_s;
+    for (PlotSeries* series : {&best, &low, &high}) series->x.push_back(time);
+    best.y.push_back(moment.focal_px);
+    low.y.push_back(moment.focal_px * (1.0 - moment.focal_sigma));
+    high.y.push_back(moment.focal_px * (1.0 + moment.focal_sigma));
+  }
+  plot.series = {best, low, high};
+  return plot;
+}
+
 }  // namespace
 
 std::vector<Plot> plots_of(const DriveRecord& record, const RunEvaluation& evaluation) {
@@ -203,6 +218,7 @@ std::vector<Plot> plots_of(const DriveRecord& record, const RunEvaluation& evalu
   std::vector<Plot> plots = {speed_plot(record, track), yaw_rate_plot(record, track),
                              scale_plot(record, track), tilt_plot(record)};
   plots.push_back(counts_plot(record));
+  if (!record.camera_belief.history.empty()) plots.push_back(focal_plot(record));
   for (Plot& plot : error_plots(record, evaluation)) plots.push_back(std::move(plot));
   return plots;
 }

@@ -22,6 +22,7 @@ struct Prepared {
 
 SourceOptions source_options(const RunOptions& options) {
   SourceOptions source = options.source.for_log(options.log);
+  source.camera_model = options.camera_model;
   source.stereo = options.front_end.scale.source == "stereo";
   return source;
 }
@@ -173,9 +174,13 @@ class Drive {
     record_.decode_ms.push_back(prepared.decode_ms);
     record_.tilt = front_end_.tilt();
     if (is_first) record_.given_tilt = record_.tilt;
-    if (observer_) observer_({image, front_end_.correspondences(), record_});
+    if (observer_) observe(image);
     progress_.update(record_.frames.size());
     return !interrupted();
+  }
+
+  void observe(const GreyImage& image) {
+    observer_({image, front_end_.correspondences(), record_, front_end_.newest_keyframe()});
   }
 
   void remember_mounting(const CameraFrame& first) {
@@ -184,6 +189,7 @@ class Drive {
     record_.scale_source = scale.source;
     if (scale.source == "height") record_.common_length_sigma = scale.road_uncertainty;
     record_.camera = first.camera;
+    record_.raw_camera = first.raw_camera;
   }
 
   void finish() {
@@ -196,6 +202,7 @@ class Drive {
     record_.tilt = front_end_.tilt();
     record_.tilt_belief = front_end_.tilt_belief();
     record_.scale_uncertainty = front_end_.scale_uncertainty();
+    record_.camera_belief = front_end_.camera_belief();
     record_.camera_height = front_end_.camera_height();
     record_.car_mask = front_end_.car_mask();
     record_.car_mask_refused = front_end_.car_mask_refused();

@@ -12,8 +12,9 @@ namespace oneac::app {
 /// What a viewer is shown after each frame; valid during the call.
 struct RunMoment {
   const GreyImage& image;
-  const TrackedPair& pair;    ///< [px] from the frame before
-  const DriveRecord& record;  ///< with this frame
+  const TrackedPair& pair;                 ///< [px] from the frame before
+  const DriveRecord& record;               ///< with this frame
+  std::optional<NewestKeyframe> keyframe;  ///< when it is one
 };
 
 /// Looks on; changes no result.

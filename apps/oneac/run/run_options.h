@@ -46,6 +46,7 @@ struct RunOptions {
   SourceParameters source;
   FrontEndOptions front_end;
   RunParameters run;
+  std::optional<PinholeCamera> camera_model;  ///< instead of source.calibration; no parameter
 
   /// All keys; borrows this object.
   [[nodiscard]] ParameterTable table();

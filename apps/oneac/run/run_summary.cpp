@@ -135,6 +135,19 @@ Json suspension_json(const DriveRecord& record) {
           {"sigma_median_deg", statistics_of(sigma_deg)->median}};
 }
 
+/// What bends say of the focal length; null where the drive cannot know.
+Json learned_json(const DriveRecord& record) {
+  const CameraBelief& belief = record.camera_belief;
+  const bool learned = belief.used.fx != belief.given.fx;
+  Json json = {{"used", learned ? "learned" : "given"},
+               {"focal_used_last_px", belief.used.focal_px()},
+               {"bends", belief.bends},
+               {"focal_by_bends_px", nullptr},
+               {"focal_sigma", belief.focal_sigma}};
+  if (belief.knows_focal()) json["focal_by_bends_px"] = belief.focal_px;
+  return json;
+}
+
 Json camera_json(const DriveRecord& record) {
   const PinholeCamera& c = record.camera;
   return {
@@ -144,6 +157,7 @@ Json camera_json(const DriveRecord& record) {
       {"fy_px", c.fy},
       {"cx_px", c.cx},
       {"cy_px", c.cy},
+      {"self_calibration", learned_json(record)},
       {"tilt_given", tilt_json(record.given_tilt)},
       {"tilt_used_last", tilt_json(record.tilt)},
       {"tilt_sigma", tilt_json({record.tilt_belief.pitch_sigma, record.tilt_belief.roll_sigma})},

@@ -1,5 +1,6 @@
 #include "oneac/frontend/front_end.h"
 
+#include "camera/camera_learner.h"
 #include "odometry.h"
 #include "scale/stereo_depths.h"
 #include "two_view/normalised_pair.h"
@@ -62,6 +63,7 @@ FrontEnd::FrontEnd(const FrontEndOptions& options)
   const RelativePoseInitialiser::Ptr initialiser = make_initialiser(options_.initialiser);
   initialiser->configure(initialiser_yaml(options_));
   odometry_ = std::make_unique<Odometry>(options_, initialiser);
+  learner_ = std::make_unique<CameraLearner>(options_.self_calibration);
 }
 
 FrontEnd::~FrontEnd() {
@@ -79,6 +81,8 @@ PreparedFrame FrontEnd::prepare(CameraFrame frame) const {
 }
 
 FrameResult FrontEnd::process(PreparedFrame prepared) {
+  if (!started_) learner_->start(prepared.frame.camera);
+  prepared.frame.camera = learner_->used();
   const CameraFrame& frame = prepared.frame;
   double features_ms = prepared.features_ms;
   TrackedPair pair;
@@ -104,6 +108,10 @@ FrameResult FrontEnd::process(PreparedFrame prepared) {
     return first;
   }
   FrameResult result = odometry_->advance(frame, std::move(pair), road);
+  {
+    const StageTimer timer(result.step->refine_ms);
+    learn_camera(result);
+  }
   result.step->features_ms = features_ms;
   constexpr double kMillisecond = 1e-3;
   profiler_.registerUserMeasure("features", features_ms * kMillisecond, true);
@@ -115,6 +123,21 @@ FrameResult FrontEnd::process(PreparedFrame prepared) {
   }
   trajectory_.add(result);
   return result;
+}
+
+void FrontEnd::learn_camera(const FrameResult& result) {
+  const auto keyframe = odometry_->newest_keyframe();
+  if (!keyframe) return;
+  const double before = previous_camera_.focal_px();
+  const bool changed = learner_->follow(*keyframe, result.index, result.time_s);
+  odometry_->blame_camera(learner_->fault());
+  if (!changed) return;
+  previous_camera_ = learner_->used();
+  odometry_->renormalise(before / previous_camera_.focal_px());
+}
+
+const CameraBelief& FrontEnd::camera_belief() const {
+  return learner_->belief();
 }
 
 MotionHint FrontEnd::hint() const {
@@ -180,6 +203,8 @@ TiltBelief FrontEnd::tilt_belief() const {
 }
 
 Settled FrontEnd::finish() {
+  learner_->finish();
+  if (started_) odometry_->blame_camera(learner_->fault());
   Settled settled = odometry_->finish();
   trajectory_.finish(settled);
   return settled;
@@ -187,6 +212,10 @@ Settled FrontEnd::finish() {
 
 Tilt FrontEnd::tilt() const {
   return tilt_belief().tilt;
+}
+
+std::optional<NewestKeyframe> FrontEnd::newest_keyframe() const {
+  return odometry_->newest_keyframe();
 }
 
 GreyImage FrontEnd::car_mask() const {

@@ -21,6 +21,10 @@ void ScaleOptions::validate() const {
           "at least scale.acceleration");
 }
 
+void SelfCalibrationOptions::validate() const {
+  check_bounds("front_end.calibration", *this);
+}
+
 void FrontEndOptions::validate() const {
   check_bounds("front_end", *this);
   require(camera_height == 0.0 || CameraHeight::is_plausible(camera_height),
@@ -32,6 +36,7 @@ void FrontEndOptions::validate() const {
   require(
       undistorted_fov_deg == 0.0 || (undistorted_fov_deg >= 10.0 && undistorted_fov_deg <= 150.0),
       "front_end.undistorted_fov_deg", undistorted_fov_deg, "0, or from 10 to 150 degrees");
+  self_calibration.validate();
   tilt.validate();
   features.validate();
   InitialiserOptions{estimator, consensus, gc_ransac}.validate();

@@ -31,6 +31,11 @@ class Odometry {
   /// Settles what is left; the next step begins a new segment at the last frame.
   [[nodiscard]] Settled finish() { return map_.finish(); }
 
+  /// Why the camera cannot be as given, or nothing: until told otherwise.
+  void blame_camera(const std::optional<std::string>& fault) { setup_.blame_camera(fault); }
+  /// Normalised coordinates of the frames to come are longer by this factor.
+  void renormalise(double factor) { map_.renormalise(factor); }
+
   /// For the tilt source "imu".
   void add_inertial(const InertialReading& reading) { attitude_.add_inertial(reading); }
   /// Speed over ground, for the scale source "gps".
@@ -39,6 +44,8 @@ class Odometry {
   [[nodiscard]] const Attitude& attitude() const { return attitude_; }
   [[nodiscard]] const Scale& scale() const { return scale_; }
   [[nodiscard]] const SetupCheck& setup() const { return setup_; }
+  /// The newest frame, when it became a keyframe.
+  [[nodiscard]] std::optional<NewestKeyframe> newest_keyframe() const { return map_.newest(); }
   /// Motion expected for the next step, length as used; none before the first.
   [[nodiscard]] std::optional<RelativePose> expected() const;
 

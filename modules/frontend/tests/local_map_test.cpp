@@ -66,6 +66,23 @@ LocalMap driven_map(const Corridor& corridor, int metres) {
   return map;
 }
 
+TEST(LocalMap, CarriesTheLengthOnWhenTheFocalLengthHasChanged) {
+  constexpr double kFactor = 1.05;
+  const Corridor corridor(200);
+  LocalMap map = driven_map(corridor, 4);
+  map.renormalise(kFactor);
+  TrackedPair step = corridor.step(4.0, 4.7);
+  for (Correspondence& ac : step.correspondences) {
+    ac.x1 *= kFactor;
+    ac.x2 *= kFactor;
+  }
+  map.extend(step, {});
+  const auto carried =
+      map.carry({Eigen::Matrix3d::Identity(), -Eigen::Vector3d::UnitZ()}, Corridor::pose_at(4.0));
+  ASSERT_TRUE(carried.has_value());
+  EXPECT_NEAR(carried->length, 0.7, 1e-3);
+}
+
 TEST(LocalMap, CarriesTheLengthOfTheNextStep) {
   const Corridor corridor(200);
   LocalMap map = driven_map(corridor, 4);

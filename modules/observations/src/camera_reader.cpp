@@ -133,6 +133,10 @@ std::string CameraReader::scaling_note() const {
   return state_->undistorter.scaling_note();
 }
 
+PinholeCamera CameraReader::raw_camera(const GreyImage& image) const {
+  return state_->undistorter.camera_for(image.width(), image.height());
+}
+
 bool CameraReader::undistorts() const {
   return state_->camera.is_distorted();
 }

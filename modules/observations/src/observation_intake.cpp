@@ -167,6 +167,7 @@ void ObservationIntake::add_pixels(const CameraView& view, const CameraView* rig
   frame.image = rectified(view, where);
   if (frame.baseline_m > 0.0) frame.right = rectified(*right, where + " (right)");
   frame.camera = reader_->rectified_camera(frame.image);
+  frame.raw_camera = reader_->raw_camera(frame.image);
 }
 
 }  // namespace oneac

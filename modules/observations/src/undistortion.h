@@ -39,11 +39,12 @@ class Undistorter {
   [[nodiscard]] GreyImage rectify(GreyImage grey, const std::string& name) const;
   /// The camera of the rectified images.
   [[nodiscard]] PinholeCamera rectified_camera(const GreyImage& image) const;
+  /// The camera of the images as they are stored, scaled to their size where it may be.
+  [[nodiscard]] PinholeCamera camera_for(int width, int height) const;
   /// One line once an image has made the calibration be scaled, else "".
   [[nodiscard]] std::string scaling_note() const;
 
  private:
-  [[nodiscard]] PinholeCamera camera_for(int width, int height) const;
   void check_size(const GreyImage& grey, const std::string& name) const;
   void prepare(int width, int height) const;
   void compute_map(const PinholeCamera& camera, const cv::Size& size) const;

@@ -60,11 +60,19 @@ class KeyframeMap {
   /// Ends the step.
   /// @param correction  when move() made a keyframe
   [[nodiscard]] FrameInMap settle(const std::optional<ScaleCorrection>& correction);
+  /// See LocalMap::renormalise().
+  void renormalise(double factor) {
+    if (window_) window_->renormalise(factor);
+  }
   /// What the map says of lengths is wrong: it begins anew with the next step.
   void forget() { lost_ = true; }
   /// What still waits, at the end of a drive. A frame that comes after it begins a new segment.
   [[nodiscard]] Settled finish();
 
+  /// The newest frame, when it became a keyframe.
+  [[nodiscard]] std::optional<NewestKeyframe> newest() const {
+    return window_ ? window_->newest() : std::nullopt;
+  }
   [[nodiscard]] std::size_t frames() const { return frames_; }    ///< so far
   [[nodiscard]] std::size_t segment() const { return segment_; }  ///< of the newest frame
 

@@ -220,6 +220,28 @@ void LocalMap::rescale(double factor) {
   }
 }
 
+void LocalMap::renormalise(double factor) {
+  focal_px_ /= factor;
+  sigma_ *= factor;
+  for (auto& [id, track] : tracks_) {
+    for (Eigen::Vector2d* x : {&track.now.x, &track.offset, &track.previous_x, &track.ray}) {
+      *x *= factor;
+    }
+    for (Sighting& seen : track.seen) seen.x *= factor;
+    track.gradient /= factor;
+  }
+}
+
+std::optional<NewestKeyframe> LocalMap::newest() const {
+  if (!newest_is_keyframe_) return std::nullopt;
+  NewestKeyframe result{window_.back().T_cam_map, {}};
+  for (const auto& [id, track] : tracks_) {
+    const Sighting* seen = track.alive ? track.sighting(*newest_is_keyframe_) : nullptr;
+    if (seen != nullptr) result.sightings.push_back({id, seen->x});
+  }
+  return result;
+}
+
 const WindowKeyframe& LocalMap::keyframe(std::size_t id) const {
   return window_.at(position(id));
 }

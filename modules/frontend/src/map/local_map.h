@@ -50,6 +50,9 @@ class LocalMap {
   [[nodiscard]] KeyframePair pair_with(std::size_t steps_back) const;
   /// Multiplies all lengths, the oldest keyframe staying where it is.
   void rescale(double factor);
+  /// Another focal length from here on: the same pixels have normalised coordinates that are longer
+  /// by this factor. Poses and depths stay; the next adjustment moves them.
+  void renormalise(double factor);
   /// Whether the window has one keyframe more than it may.
   [[nodiscard]] bool is_over_full() const {
     return window_.size() > static_cast<std::size_t>(options_.size);
@@ -57,6 +60,8 @@ class LocalMap {
   /// Takes the oldest keyframe out, with the landmarks that no other keyframe sees.
   [[nodiscard]] std::vector<MapPoint> retire_oldest();
 
+  /// The newest frame with what it sees, when it is a keyframe.
+  [[nodiscard]] std::optional<NewestKeyframe> newest() const;
   [[nodiscard]] const std::deque<WindowKeyframe>& keyframes() const { return window_; }
   [[nodiscard]] const TrackMap& tracks() const { return tracks_; }
   /// Information of the second keyframe's pose given the first's, see Keyframe::information;

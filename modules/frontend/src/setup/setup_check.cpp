@@ -178,8 +178,19 @@ void SetupCheck::follow(const TwoView& seen, const Eigen::Matrix3d& R_level_cam)
   remember(seen, R_level_cam);
   const std::size_t every = looks_.count < kFewestLooks ? kLookEvery : kLookLater;
   if (travels_.count % every == 0) look_for_road(seen, R_level_cam);
+  of_drive_ = faults_of_drive();
+  gather();
+}
+
+void SetupCheck::blame_camera(const std::optional<std::string>& fault) {
+  of_focal_ = fault;
+  gather();
+}
+
+void SetupCheck::gather() {
   faults_ = of_camera_;
-  for (std::string& fault : faults_of_drive()) faults_.push_back(std::move(fault));
+  if (of_focal_) faults_.push_back(*of_focal_);
+  faults_.insert(faults_.end(), of_drive_.begin(), of_drive_.end());
 }
 
 std::optional<std::string> SetupCheck::fault_of_pitch() const {

@@ -36,6 +36,9 @@ class SetupCheck {
   /// The next step. @param R_level_cam  levelling of its first view, as believed
   void follow(const TwoView& seen, const Eigen::Matrix3d& R_level_cam);
 
+  /// What the drive says against the focal length, or nothing; holds until told otherwise.
+  void blame_camera(const std::optional<std::string>& fault);
+
   [[nodiscard]] bool metric_allowed() const { return faults_.empty(); }
   /// What speaks against the set-up, one line each with its cure.
   [[nodiscard]] const std::vector<std::string>& faults() const { return faults_; }
@@ -64,7 +67,11 @@ class SetupCheck {
   [[nodiscard]] std::optional<std::string> fault_of_road() const;
   [[nodiscard]] std::optional<std::string> fault_of_pitch() const;
 
+  void gather();
+
   std::vector<std::string> of_camera_;
+  std::vector<std::string> of_drive_;
+  std::optional<std::string> of_focal_;
   std::vector<std::string> faults_;
   MountAngles believed_;
   Eigen::Vector3d nose_ = Eigen::Vector3d::UnitZ();  ///< vehicle's X in the levelled camera

@@ -84,8 +84,11 @@ TwoView TwoViewEstimator::estimate(TrackedPair pair, const TwoViewPrior& prior) 
   TwoView result;
   CheckedAnswer answer = initialise(pair, told, prior, result.estimate_ms);
   if (whole && step_status(answer.result.status) == StepStatus::kNoMotion) {
+    // That may turn a rest's rotation, but make no motion of it: traffic is below the sky, too.
     whole = !take_the_sky_apart(pair, prior, told);
-    if (!whole) answer = initialise(pair, told, prior, result.estimate_ms);
+    CheckedAnswer below = answer;
+    if (!whole) below = initialise(pair, told, prior, result.estimate_ms);
+    if (step_status(below.result.status) == StepStatus::kNoMotion) answer = std::move(below);
   }
   InitialiserResult& found = answer.result;
   result.fault = std::move(answer.fault);

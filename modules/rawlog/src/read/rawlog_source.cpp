@@ -100,7 +100,9 @@ CameraReaderOptions RawlogSource::Impl::reader_options() const {
   options.stereo = options_.stereo;
   options.mount = options_.mount;
   options.undistorted_fov_deg = options_.undistorted_fov_deg;
-  if (!options_.calibration.empty()) {
+  if (options_.camera_model) {
+    options.calibration = options_.camera_model;
+  } else if (!options_.calibration.empty()) {
     options.calibration = load_calibration(options_.calibration, chosen_.side_name);
   }
   return options;
@@ -186,7 +188,8 @@ std::optional<FrameTicket> RawlogSource::Impl::ticket_of(const Sight& sight,
 // is loaded first by the threads that share the work.
 void RawlogSource::Impl::settle_size(const StoredImage& first, const std::string& ticket_name) {
   size_settled_ = true;
-  if (options_.calibration.empty() && chosen_.calibration.ncols != 0) return;
+  const bool given = options_.camera_model || !options_.calibration.empty();
+  if (!given && chosen_.calibration.ncols != 0) return;
   try {
     static_cast<void>(decoded(first, ticket_name));
   } catch (const InputError&) {  // load() says it
@@ -212,6 +215,7 @@ CameraFrame RawlogSource::Impl::load(const FrameTicket& ticket) const {
   frame.time_s = ticket.time_s;
   frame.name = ticket.name;
   frame.camera = camera_.rectified_camera(frame.image);
+  frame.raw_camera = camera_.raw_camera(frame.image);
   frame.T_vehicle_cam = payload.T_vehicle_cam;
   return frame;
 }

@@ -3,6 +3,7 @@
 #include "oneac/base/image.h"
 #include "oneac/features/ac_tracker.h"
 #include "oneac/features/road_alignment.h"
+#include "oneac/frontend/camera_belief.h"
 #include "oneac/frontend/drive_trajectory.h"
 #include "oneac/frontend/frame_result.h"
 #include "oneac/frontend/front_end_options.h"
@@ -27,6 +28,7 @@ class CObservation;
 
 namespace oneac {
 
+class CameraLearner;
 class Odometry;
 
 /// A frame with its features: what can be made of one image alone.
@@ -91,6 +93,10 @@ class FrontEnd : public mrpt::system::COutputLogger {
   [[nodiscard]] TiltBelief tilt_belief() const;
   /// Correspondences [px] from the frame before to the last one processed, for viewers.
   [[nodiscard]] const TrackedPair& correspondences() const { return correspondences_; }
+  /// The camera as given, as used, and as the bends say; front_end.calibration.
+  [[nodiscard]] const CameraBelief& camera_belief() const;
+  /// The newest frame, when it became a keyframe.
+  [[nodiscard]] std::optional<NewestKeyframe> newest_keyframe() const;
   /// What belongs to the car as learned so far (bonnet, wipers): black there, white elsewhere, of
   /// the images' size; empty while nothing was learned.
   [[nodiscard]] GreyImage car_mask() const;
@@ -107,6 +113,8 @@ class FrontEnd : public mrpt::system::COutputLogger {
  private:
   /// What the tracker may expect of the next step.
   [[nodiscard]] MotionHint hint() const;
+  /// Takes what a new keyframe says about the camera, for the frames to come.
+  void learn_camera(const FrameResult& result);
   /// The first time that observations are passed over for this reason.
   void log_first(PassedOver reason) const;
 
@@ -114,6 +122,7 @@ class FrontEnd : public mrpt::system::COutputLogger {
   bool stereo_;  ///< metres come from the right images
   std::unique_ptr<AcTracker> tracker_;
   std::unique_ptr<Odometry> odometry_;
+  std::unique_ptr<CameraLearner> learner_;
   bool started_ = false;
   PinholeCamera previous_camera_;
   RoadImage previous_road_;

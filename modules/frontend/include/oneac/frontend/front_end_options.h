@@ -30,6 +30,25 @@ struct TiltOptions {
   void validate() const;
 };
 
+/// What a drive may find out about its camera. Bends tell a focal length, straight roads do not.
+struct SelfCalibrationOptions {
+  /// "off": the camera stays as given; "focal": its focal length is learned as the drive goes
+  std::string refine = "off";
+  bool check = true;           ///< a drive whose bends contradict the focal length is not metric
+  double focal_sigma = 0.03;   ///< [-] relative 1σ of the given focal length: old or resized
+  double centre_sigma = 0.02;  ///< [-] 1σ of the principal point in focal lengths: 10 px of 500
+  double k1_sigma = 0.05;      ///< [-] 1σ of the distortion that is left in the images: k1 ...
+  double k2_sigma = 0.05;      ///< [-] ... and k2; a twentieth of the radius at 45°
+  /// [deg] turn of twelve keyframes that asks them: in less, what a tracker is off by together,
+  /// 0.1 px, is more than the focal length's per cent
+  double min_turn_deg = 8.0;
+
+  /// Whether bends are looked at.
+  [[nodiscard]] bool looks() const { return check || refine != "off"; }
+  /// @throws std::invalid_argument naming field, value and bound
+  void validate() const;
+};
+
 /// Everything the front-end can be told. validate() throws std::invalid_argument naming field,
 /// value and bound.
 struct FrontEndOptions {
@@ -42,6 +61,7 @@ struct FrontEndOptions {
   double camera_height =
       0.0;  ///< [m] above the road; 0: the height of the log's sensor pose if ≥ 0.5 m
   double max_hold = 2.0;  ///< [s] a step without scale keeps the last metric speed for so long
+  SelfCalibrationOptions self_calibration;  ///< key: front_end.calibration
   TiltOptions tilt;
   FeatureOptions features;
   std::string estimator = "default";  ///< robust estimator of the initialiser
@@ -77,6 +97,22 @@ void describe(Visitor&& visit, TiltOptions& o) {
 }
 
 template <class Visitor>
+void describe(Visitor&& visit, SelfCalibrationOptions& o) {
+  visit("refine", o.refine, "name", "off: the camera as given; focal: learned from bends",
+        Bound::one_of("off or focal"));
+  visit("check", o.check, "bool", "bends that contradict the focal length take the metres away");
+  visit("focal_sigma", o.focal_sigma, "-", "relative 1-sigma of the given focal length",
+        Bound::above_to(0, 1));
+  visit("centre_sigma", o.centre_sigma, "-", "1-sigma of the principal point, in focal lengths",
+        Bound::above_to(0, 1));
+  visit("k1_sigma", o.k1_sigma, "-", "1-sigma of the distortion left in the images: k1",
+        Bound::above_to(0, 1));
+  visit("k2_sigma", o.k2_sigma, "-", "the same of k2", Bound::above_to(0, 1));
+  visit("min_turn_deg", o.min_turn_deg, "deg", "turn within twelve keyframes that is a bend",
+        Bound::between(0, 90));
+}
+
+template <class Visitor>
 void describe(Visitor&& visit, FrontEndOptions& o) {
   visit("initialiser", o.initialiser, "name", "method of the relative pose");
   visit("estimator", o.estimator, "name", "default: the method's own",
@@ -86,6 +122,7 @@ void describe(Visitor&& visit, FrontEndOptions& o) {
         Bound::at_least(0));
   visit("perspective", o.perspective, "bool", "affinities correct tracked points for perspective");
   visit("refine_enabled", o.refine_enabled, "bool", "two-view bundle adjustment of each pair");
+  visit.section("calibration", o.self_calibration);
   visit.section("tilt", o.tilt);
   visit.section("features", o.features);
   visit.section("consensus", o.consensus);

@@ -36,6 +36,18 @@ struct Keyframe {
   std::vector<MapPoint> points;  ///< landmarks whose last sight this keyframe was anchored to
 };
 
+/// A track where the newest keyframe sees it.
+struct KeyframeSighting {
+  std::uint64_t track = 0;                      ///< the same in every keyframe
+  Eigen::Vector2d x = Eigen::Vector2d::Zero();  ///< normalised by the camera in use [-]
+};
+
+/// The newest keyframe as it is before others adjust it: what a calibration needs of it.
+struct NewestKeyframe {
+  RelativePose T_cam_map;                   ///< lengths of the map
+  std::vector<KeyframeSighting> sightings;  ///< in the order of their tracks
+};
+
 /// Final pose of a frame.
 struct SettledFrame {
   std::size_t frame = 0;  ///< counts processed frames from 0

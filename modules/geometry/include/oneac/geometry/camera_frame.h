@@ -14,12 +14,13 @@ namespace oneac {
 struct CameraFrame {
   std::size_t index =
       0;  ///< counts the images of this camera in the log from 0, missing ones included
-  double time_s = 0.0;      ///< Unix time [s]
-  std::string name;         ///< for messages: file name, or "record N"
-  GreyImage image;          ///< rectified
-  PinholeCamera camera;     ///< of `image`: no distortion left
-  GreyImage right;          ///< of a rectified pair, when asked for and there: same `camera`, ...
-  double baseline_m = 0.0;  ///< ... so far along the X axis [m]; 0: no pair
+  double time_s = 0.0;       ///< Unix time [s]
+  std::string name;          ///< for messages: file name, or "record N"
+  GreyImage image;           ///< rectified
+  PinholeCamera camera;      ///< of `image`: no distortion left
+  PinholeCamera raw_camera;  ///< of the image as it is stored: with its distortion
+  GreyImage right;           ///< of a rectified pair, when asked for and there: same `camera`, ...
+  double baseline_m = 0.0;   ///< ... so far along the X axis [m]; 0: no pair
   /// Camera (optical: X right, Y down, Z forward) in the vehicle frame (X forward,
   /// Y left, Z up) [m].
   Eigen::Isometry3d T_vehicle_cam = forward_looking_mount();

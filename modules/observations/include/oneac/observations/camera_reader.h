@@ -75,6 +75,8 @@ class CameraReader {
   [[nodiscard]] std::string scaling_note() const;
   /// The camera of the rectified images.
   [[nodiscard]] PinholeCamera rectified_camera(const GreyImage& image) const;
+  /// The calibration in use, of the images as they are stored.
+  [[nodiscard]] PinholeCamera raw_camera(const GreyImage& image) const;
   /// The calibration in use has distortion: images are taken for raw.
   [[nodiscard]] bool undistorts() const;
 

@@ -26,6 +26,8 @@ struct SourceOptions {
   std::size_t every = 1;                  ///< use every K-th image from `first` on; ≥ 1
   bool stereo = false;               ///< load the right image beside the left one, where it exists
   double undistorted_fov_deg = 0.0;  ///< across undistorted images [deg]; 0: the road is kept
+  std::optional<PinholeCamera>
+      camera_model;  ///< the same as `calibration` by value; goes before it
 
   /// @throws InputError naming flag, value and bound
   void validate() const;

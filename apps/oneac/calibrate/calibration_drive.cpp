@@ -1,0 +1,157 @@
+#include "calibrate/calibration_drive.h"
+
+#include "run/run_drive.h"
+
+#include "oneac/base/error.h"
+#include "oneac/base/number_text.h"
+#include "oneac/geometry/angles.h"
+#include "oneac/geometry/lens.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace oneac::app {
+namespace {
+
+// [deg] field of view taken where nobody guesses one: dashcams and robots' cameras have 45 to 90.
+constexpr double kUsualFov_deg = 60.0;
+// [-] 1σ of ln f of such a guess, and of a calibration that came with the log.
+constexpr double kGuessSigma = 0.3, kCalibrationSigma = 0.1;
+// [-] 1σ of principal point, k1 and k2 before the drive: unknown lenses of up to 90°.
+constexpr double kCentreSigma = 0.03, kDistortionSigma = 0.3;
+// [-] the camera stays as it is: a change of ln f that is small against its 1σ, or at all.
+constexpr double kSettledShare = 0.5, kSettled = 5e-4;
+
+/// The windows of one drive with what it recorded.
+struct Pass {
+  std::vector<CalibrationWindow> windows;
+  DriveRecord drive;
+};
+
+Pass drive_once(const RunOptions& options) {
+  Pass pass;
+  WindowCutter cutter;
+  pass.drive = run_drive(options, [&](const RunMoment& moment) {
+    if (!moment.keyframe) return;
+    CalibrationView view{moment.keyframe->T_cam_map, {}};
+    for (const KeyframeSighting& seen : moment.keyframe->sightings) {
+      view.sightings.push_back({seen.track, project_distorted(moment.record.raw_camera, seen.x)});
+    }
+    if (auto window = cutter.add(std::move(view))) pass.windows.push_back(std::move(*window));
+  });
+  pass.windows.push_back(cutter.finish());
+  return pass;
+}
+
+PinholeCamera camera_of_view(const GreyImage& image, double fov_deg) {
+  PinholeCamera camera;
+  camera.width = image.width();
+  camera.height = image.height();
+  camera.fx = camera.fy = 0.5 * image.width() / std::tan(0.5 * fov_deg * kDegree);
+  camera.cx = 0.5 * (image.width() - 1);
+  camera.cy = 0.5 * (image.height() - 1);
+  return camera;
+}
+
+/// The first frame by any camera at all, when the log has none; by the log's else.
+CameraFrame first_frame(const RunOptions& options, bool any_camera) {
+  SourceOptions source = options.source.for_log(options.log);
+  if (any_camera) source.camera_model = PinholeCamera{};
+  RawlogSource log(source);
+  const auto ticket = log.next();
+  if (!ticket) throw InputError(options.log, "none of its images can be read", "see oneac info");
+  return log.load(*ticket);
+}
+
+/// @throws InputError for a lens that calibrate cannot learn
+void check_lens(const PinholeCamera& camera, const std::string& log) {
+  if (is_five_term_lens(camera)) return;
+  throw InputError(log, "its lens is a fisheye or has k4, k5 or k6, which are not learned",
+                   "give --fov-deg to begin with a plumb-bob lens, or keep its calibration");
+}
+
+/// The log's camera, or one of the guessed field of view.
+Calibration start_of(const CalibrateOptions& options) {
+  Calibration start;
+  start.prior = {kCalibrationSigma, kCentreSigma, kDistortionSigma, kDistortionSigma};
+  if (!options.fov_deg) {
+    try {
+      start.guess = first_frame(options.run, false).raw_camera;
+    } catch (const InputError&) {
+      start.guess.fx = 0.0;  // no calibration, most likely; another fault comes again below
+    }
+    if (start.guess.fx > 0.0) {
+      check_lens(start.guess, options.run.log);
+      return start;
+    }
+  }
+  start.prior.focal = kGuessSigma;
+  start.guess =
+      camera_of_view(first_frame(options.run, true).image, options.fov_deg.value_or(kUsualFov_deg));
+  return start;
+}
+
+/// Measures the windows of a pass that hold a bend.
+void measure(const Pass& pass, const PinholeCamera& tracked_with, double min_turn,
+             Calibration& calibration) {
+  const IntrinsicsVector start = change_between(calibration.guess, tracked_with);
+  IntrinsicsBelief belief(calibration.guess, calibration.prior);
+  calibration.bends.clear();
+  calibration.windows.clear();
+  for (const CalibrationWindow& window : pass.windows) {
+    if (window.views.empty()) continue;
+    calibration.largest_turn = std::max(calibration.largest_turn, turn_of(window));
+    if (turn_of(window) < min_turn) continue;
+    const auto measured =
+        measure_intrinsics(window, calibration.guess, start, calibration.prior, {});
+    if (!measured) continue;
+    belief.add(*measured);
+    calibration.bends.push_back(*measured);
+    calibration.windows.push_back(window);
+  }
+  calibration.estimate = belief.estimate();
+}
+
+}  // namespace
+
+bool Calibration::knows_focal() const {
+  return bends.size() >= IntrinsicsBelief::kFewestWindows &&
+         estimate.sigma(kFocal) < 0.5 * prior.focal;
+}
+
+void CalibrateOptions::validate() const {
+  run.validate();
+  if (run.log.empty()) {
+    throw InputError("calibrate", "no rawlog given", "oneac calibrate LOG -o camera.ini");
+  }
+  if (output.empty()) throw InputError("calibrate", "no output given", "add -o camera.ini");
+  if (fov_deg && !(*fov_deg >= 10.0 && *fov_deg <= 150.0)) {
+    throw InputError("--fov-deg " + fixed_text(*fov_deg, 1), "it must be from 10 to 150", "");
+  }
+  if (passes < 1) throw InputError("--passes " + std::to_string(passes), "at least 1", "");
+}
+
+Calibration calibrate_camera(const CalibrateOptions& options) {
+  Calibration calibration = start_of(options);
+  RunOptions run = options.run;
+  run.front_end.self_calibration.refine = "off";
+  run.front_end.self_calibration.check = false;  // done here, with all tracks
+  const double min_turn = run.front_end.self_calibration.min_turn_deg * kDegree;
+  PinholeCamera camera = calibration.guess;
+  for (int i = 0; i < options.passes; ++i) {
+    run.camera_model = camera;
+    Pass pass = drive_once(run);
+    measure(pass, camera, min_turn, calibration);
+    calibration.drive = std::move(pass.drive);
+    ++calibration.passes;
+    const double moved = std::abs(std::log(calibration.estimate.camera.fx / camera.fx));
+    camera = calibration.estimate.camera;
+    const double small = kSettledShare * calibration.estimate.sigma(kFocal);
+    if (!calibration.knows_focal() || calibration.drive.interrupted) break;
+    if (moved < std::max(small, kSettled)) break;
+  }
+  return calibration;
+}
+
+}  // namespace oneac::app

@@ -1,0 +1,198 @@
+#include "calibrate/calibration_outputs.h"
+
+#include "oneac/base/median.h"
+#include "oneac/base/number_text.h"
+#include "oneac/base/version.h"
+#include "oneac/geometry/angles.h"
+#include "oneac/rawlog/calibration_writer.h"
+#include "oneac/report/html_page.h"
+#include "oneac/report/overlay.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <utility>
+#include <vector>
+
+namespace oneac::app {
+namespace {
+
+// A focal length that is good to a per cent needs no better drive.
+constexpr double kGood = 0.01;
+constexpr std::size_t kRows = 4, kColumns = 8;  // of the residuals by region
+// [-] 1σ that is still half of what was known before: the drive did not see it.
+constexpr double kUnseen = 0.5;
+
+std::string percent(double share) {
+  return fixed_text(100.0 * share, 1) + " %";
+}
+
+/// One unknown with its unit.
+struct Line {
+  const char* name;
+  double before, after, sigma;
+  bool seen;
+  int decimals;
+};
+
+std::vector<Line> lines_of(const Calibration& c) {
+  const PinholeCamera& a = c.guess;
+  const PinholeCamera& b = c.estimate.camera;
+  const double f = b.focal_px();
+  const auto sigma = [&](Intrinsic which) { return c.estimate.sigma(which); };
+  const auto seen = [&](Intrinsic which, double prior) { return sigma(which) < kUnseen * prior; };
+  return {
+      {"fx [px]", a.fx, b.fx, f * sigma(kFocal), seen(kFocal, c.prior.focal), 2},
+      {"fy [px]", a.fy, b.fy, b.fy * sigma(kFocal), seen(kFocal, c.prior.focal), 2},
+      {"cx [px]", a.cx, b.cx, a.focal_px() * sigma(kCentreX), seen(kCentreX, c.prior.centre), 2},
+      {"cy [px]", a.cy, b.cy, a.focal_px() * sigma(kCentreY), seen(kCentreY, c.prior.centre), 2},
+      {"k1", a.distortion[0], b.distortion[0], sigma(kK1), seen(kK1, c.prior.k1), 4},
+      {"k2", a.distortion[1], b.distortion[1], sigma(kK2), seen(kK2, c.prior.k2), 4}};
+}
+
+std::string text_of(const Line& line) {
+  return std::string(line.name) + " = " + fixed_text(line.after, line.decimals) + " ± " +
+         fixed_text(line.sigma, line.decimals) + (line.seen ? "" : " (not told by this drive)");
+}
+
+/// Median residual of each field; NaN where there are too few.
+using Regions = std::array<double, kRows * kColumns>;
+
+Regions regions_of(const Calibration& c, const PinholeCamera& camera) {
+  std::array<std::vector<double>, kRows * kColumns> found;
+  for (const CalibrationWindow& window : c.windows) {
+    for (const SightingResidual& s : residuals_with(window, camera, {})) {
+      const double column = std::floor(s.u.x() / camera.width * kColumns);
+      const double row = std::floor(s.u.y() / camera.height * kRows);
+      if (!(column >= 0 && column < kColumns && row >= 0 && row < kRows)) continue;
+      found[static_cast<std::size_t>(row) * kColumns + static_cast<std::size_t>(column)].push_back(
+          s.residual);
+    }
+  }
+  constexpr std::size_t kFewest = 10;
+  Regions regions;
+  for (std::size_t i = 0; i < found.size(); ++i) {
+    regions[i] = found[i].size() < kFewest ? NAN : upper_median(std::move(found[i]));
+  }
+  return regions;
+}
+
+std::string field_svg(std::size_t i, double value, double worst) {
+  constexpr int kWide = 90, kHigh = 60;
+  const auto x = std::to_string(kWide * static_cast<int>(i % kColumns));
+  const auto y = std::to_string(kHigh * static_cast<int>(i / kColumns));
+  if (!std::isfinite(value)) return "";
+  const auto colour = colour_of(std::min(value / worst, 1.0));
+  return "<rect x=\"" + x + "\" y=\"" + y + "\" width=\"88\" height=\"58\" fill=\"rgb(" +
+         std::to_string(colour[0]) + "," + std::to_string(colour[1]) + "," +
+         std::to_string(colour[2]) + ")\" fill-opacity=\"0.55\"/><text x=\"" + x + "\" y=\"" + y +
+         "\" dx=\"44\" dy=\"36\" text-anchor=\"middle\" font-size=\"18\" fill=\"currentColor\">" +
+         fixed_text(value, 2) + "</text>";
+}
+
+std::string regions_svg(const Regions& regions, double worst) {
+  std::string svg = "<svg viewBox=\"0 0 720 240\" width=\"720\" role=\"img\">";
+  for (std::size_t i = 0; i < regions.size(); ++i) svg += field_svg(i, regions[i], worst);
+  return svg + "</svg>";
+}
+
+void add_regions(HtmlPage& page, const Calibration& c) {
+  if (c.windows.empty()) return;
+  const Regions before = regions_of(c, c.guess), after = regions_of(c, c.estimate.camera);
+  double worst = 1e-3;
+  for (const double value : before) worst = std::isfinite(value) ? std::max(worst, value) : worst;
+  page.heading("Residuals by image region");
+  page.paragraph(
+      "Median distance of tracks from their landmarks in the bends [px], poses and "
+      "depths fitted to each camera.");
+  page.picture("with the camera that was guessed", regions_svg(before, worst));
+  page.picture("with the camera that was found", regions_svg(after, worst));
+}
+
+Table unknowns_table(const Calibration& c) {
+  Table table{"The camera", {"", "before", "found", "1σ", "told by this drive"}, {}};
+  for (const Line& line : lines_of(c)) {
+    table.rows.push_back({{line.name},
+                          {fixed_text(line.before, line.decimals)},
+                          {fixed_text(line.after, line.decimals)},
+                          {fixed_text(line.sigma, line.decimals)},
+                          {line.seen ? "yes" : "no"}});
+  }
+  return table;
+}
+
+Table bends_table(const Calibration& c) {
+  Table table{"Bends", {"", "turn [deg]", "tracks", "residual [px]", "1σ of f alone [%]"}, {}};
+  for (const IntrinsicsMeasurement& bend : c.bends) {
+    const double alone = 1.0 / std::sqrt(bend.information(kFocal, kFocal));
+    table.rows.push_back({{std::to_string(table.rows.size() + 1)},
+                          {fixed_text(bend.turn / kDegree, 1)},
+                          {std::to_string(bend.tracks)},
+                          {fixed_text(bend.residual_px, 2)},
+                          {fixed_text(100.0 * alone, 2)}});
+  }
+  return table;
+}
+
+std::string mount_line(const Calibration& c) {
+  const TiltBelief& tilt = c.drive.tilt_belief;
+  return "camera looks " + fixed_text(tilt.tilt.pitch_up / kDegree, 2) + " ± " +
+         fixed_text(tilt.pitch_sigma / kDegree, 2) + " deg above the horizon, leans " +
+         fixed_text(tilt.tilt.roll_right / kDegree, 2) + " ± " +
+         fixed_text(tilt.roll_sigma / kDegree, 2) + " deg to the right";
+}
+
+}  // namespace
+
+std::string verdict_of(const Calibration& c) {
+  if (c.bends.empty()) {
+    return "this drive cannot tell the focal length: it turns by " +
+           fixed_text(c.largest_turn / kDegree, 1) +
+           " degrees within twelve keyframes at most; drive some bends of 30 degrees and more, "
+           "near houses or parked cars";
+  }
+  if (c.bends.size() < IntrinsicsBelief::kFewestWindows) {
+    return "this drive has one bend only and nothing confirms what it says of the focal length; "
+           "drive some bends of 30 degrees and more, near houses or parked cars";
+  }
+  const double sigma = c.estimate.sigma(kFocal);
+  const std::string bends =
+      std::to_string(c.bends.size()) + (c.bends.size() == 1 ? " bend" : " bends");
+  if (!c.knows_focal()) {
+    return "this drive hardly tells the focal length (" + percent(sigma) + " by " + bends +
+           "); drive some bends of 30 degrees and more, near houses or parked cars";
+  }
+  const std::string good = "good to " + percent(sigma) + " in f (1 sigma, " + bends + ")";
+  return sigma < kGood ? good : good + "; drive another bend for better";
+}
+
+std::string camera_ini(const Calibration& c, const std::string& log) {
+  std::vector<std::string> remarks = {"made by oneac calibrate (oneac " + version() + ") of " + log,
+                                      verdict_of(c)};
+  for (const Line& line : lines_of(c)) remarks.push_back(text_of(line));
+  remarks.push_back(mount_line(c));
+  return calibration_text(c.estimate.camera, remarks);
+}
+
+std::string calibration_summary(const Calibration& c) {
+  std::string text;
+  for (const Line& line : lines_of(c)) text += text_of(line) + "\n";
+  return text + mount_line(c) + "\n" + verdict_of(c) + "\n";
+}
+
+std::string calibration_html(const Calibration& c, const std::string& log) {
+  HtmlPage page("oneac calibrate", log + " · oneac " + version());
+  page.warning(verdict_of(c));
+  page.tiles({{"focal length [px]", fixed_text(c.estimate.camera.focal_px(), 1)},
+              {"1σ", percent(c.estimate.sigma(kFocal))},
+              {"bends", std::to_string(c.bends.size())},
+              {"passes", std::to_string(c.passes)}});
+  page.table(unknowns_table(c));
+  page.paragraph(mount_line(c));
+  if (!c.bends.empty()) page.table(bends_table(c));
+  add_regions(page, c);
+  return page.text();
+}
+
+}  // namespace oneac::app

@@ -1,0 +1,18 @@
+#pragma once
+
+#include "calibrate/calibration_drive.h"
+
+#include <string>
+
+namespace oneac::app {
+
+/// What the drive can tell and what it cannot, in plain words, with the cure.
+[[nodiscard]] std::string verdict_of(const Calibration& calibration);
+/// camera.ini, which --calibration reads back: the estimate where the drive knows it.
+[[nodiscard]] std::string camera_ini(const Calibration& calibration, const std::string& log);
+/// What goes to stdout: unknowns with their 1σ, then the verdict.
+[[nodiscard]] std::string calibration_summary(const Calibration& calibration);
+/// The page: verdict, unknowns, bends, residuals by image region with the guess and after.
+[[nodiscard]] std::string calibration_html(const Calibration& calibration, const std::string& log);
+
+}  // namespace oneac::app

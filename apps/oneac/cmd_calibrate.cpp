@@ -1,0 +1,69 @@
+#include "calibrate/calibration_outputs.h"
+#include "commands.h"
+#include "run/run_outputs.h"
+#include "terminal/interrupt.h"
+#include "terminal/key_flags.h"
+
+#include "oneac/base/atomic_file.h"
+
+#include <CLI/CLI.hpp>
+
+#include <filesystem>
+#include <iostream>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace oneac::app {
+namespace {
+
+struct CalibrateFlags {
+  CalibrateOptions options;
+  std::vector<std::string> parameter_files;
+  std::vector<std::string> settings;
+  bool no_progress = false;
+};
+
+void run(CalibrateFlags& flags) {
+  CalibrateOptions& options = flags.options;
+  apply_settings(flags.parameter_files, flags.settings, options.run);
+  if (flags.no_progress) options.run.run.progress = false;
+  options.validate();
+  const std::filesystem::path file(options.output);
+  const std::filesystem::path folder = file.has_parent_path() ? file.parent_path() : ".";
+  require_writable_folder(folder.string());
+  catch_interrupts();
+  const Calibration calibration = calibrate_camera(options);
+  fail_if_empty(calibration.drive, options.run.log);
+  write_file_atomically(file, camera_ini(calibration, options.run.log));
+  write_file_atomically(folder / "report.html", calibration_html(calibration, options.run.log));
+  std::cout << calibration_summary(calibration) << "written: " << file.string() << ", "
+            << (folder / "report.html").string() << '\n';
+  fail_if_incomplete(calibration.drive);
+}
+
+}  // namespace
+
+void add_calibrate(CLI::App& program) {
+  auto* verb = program.add_subcommand(
+      "calibrate", "Focal length, principal point and distortion of a camera out of a drive");
+  auto flags = std::make_shared<CalibrateFlags>();
+  verb->add_option("LOG", flags->options.run.log, "rawlog: plain, .gz or zstd");
+  verb->add_option("-o,--output", flags->options.output,
+                   "file to write, for --calibration; report.html comes beside it");
+  verb->add_option("--fov-deg", flags->options.fov_deg,
+                   "guess of the horizontal field of view, instead of the log's calibration; "
+                   "60 where there is neither");
+  verb->add_option("--passes", flags->options.passes, "over the drive, at most")
+      ->capture_default_str();
+  verb->add_option("--params", flags->parameter_files, "YAML with parameters; may be repeated")
+      ->allow_extra_args(false);
+  verb->add_option("--set", flags->settings, "section.key=value, any key of params/default.yaml")
+      ->allow_extra_args(false);
+  add_selection(*verb, flags->settings);
+  add_key(*verb, "--threads", "run.threads", flags->settings, "images prepared at once");
+  verb->add_flag("--no-progress", flags->no_progress, "no progress bar");
+  verb->callback([flags] { run(*flags); });
+}
+
+}  // namespace oneac::app

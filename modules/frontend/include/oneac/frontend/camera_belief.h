@@ -1,0 +1,35 @@
+#pragma once
+
+#include "oneac/geometry/camera.h"
+
+#include <cstddef>
+#include <vector>
+
+namespace oneac {
+
+/// What a bend has added to what is known of the focal length.
+struct FocalMoment {
+  std::size_t index = 0;     ///< image of the camera in the log
+  double time_s = 0.0;       ///< [s]
+  double focal_px = 0.0;     ///< most probable from here on
+  double focal_sigma = 0.0;  ///< relative 1σ, what was known before included
+};
+
+/// The camera as given, as used, and as the bends of the drive say that it is.
+struct CameraBelief {
+  PinholeCamera given;       ///< of the images as the front-end gets them
+  PinholeCamera used;        ///< from the newest frame on
+  double focal_px = 0.0;     ///< most probable focal length
+  double focal_sigma = 0.0;  ///< relative 1σ of it
+  double drive_sigma = 0.0;  ///< the same by the drive alone; above 1: it cannot know
+  std::size_t bends = 0;     ///< windows with a bend that were measured
+  std::vector<FocalMoment> history;
+
+  /// The drive has made the focal length surer than it was given.
+  [[nodiscard]] bool knows_focal() const { return bends > 0 && drive_sigma < kKnown; }
+
+ private:
+  static constexpr double kKnown = 0.03;  // no worse than what is taken for granted
+};
+
+}  // namespace oneac

@@ -1,0 +1,85 @@
+#include "camera/camera_learner.h"
+
+#include "oneac/test_support/synthetic_bend.h"
+
+#include <gtest/gtest.h>
+
+#include <cstddef>
+
+namespace oneac {
+namespace {
+
+/// Three windows, as a camera of another focal length sees them that is given as true_camera().
+void drive_on(CameraLearner& learner, double turn, double true_focal_factor) {
+  PinholeCamera truth = true_camera();
+  truth.fx *= true_focal_factor;
+  truth.fy *= true_focal_factor;
+  for (std::uint64_t seed = 1; seed <= 3; ++seed) {
+    SyntheticDrive drive;
+    drive.turn = turn;
+    drive.noise_px = 0.1;
+    drive.seed = seed;
+    std::size_t index = 0;
+    for (const CalibrationView& view : synthetic_window(drive, truth).views) {
+      NewestKeyframe keyframe{view.T_view_map, {}};
+      for (const CalibrationSighting& seen : view.sightings) {
+        // Tracks of one bend end before the next.
+        keyframe.sightings.push_back({1000U * seed + seen.track, learner.used().normalise(seen.u)});
+      }
+      learner.follow(keyframe, index, 0.1 * static_cast<double>(index));
+      ++index;
+    }
+  }
+  learner.finish();
+}
+
+TEST(CameraLearner, AccusesAFocalLengthThatIsTenPercentOffAndNamesTheOther) {
+  CameraLearner learner({});
+  learner.start(true_camera());
+  EXPECT_FALSE(learner.fault());
+  drive_on(learner, 0.03, 1.0 / 1.1);
+  ASSERT_TRUE(learner.fault());
+  EXPECT_NEAR(learner.belief().focal_px, 720.0 / 1.1, 720.0 * 0.01);
+  EXPECT_NE(learner.fault()->find("oneac calibrate"), std::string::npos);
+  EXPECT_EQ(learner.used().fx, true_camera().fx);  // off: nothing moves
+}
+
+TEST(CameraLearner, LeavesAFocalLengthInPeaceThatIsRightOrThatNobodyCanKnow) {
+  CameraLearner right({});
+  right.start(true_camera());
+  drive_on(right, 0.03, 1.0);
+  EXPECT_FALSE(right.fault());
+  EXPECT_EQ(right.belief().bends, 3U);
+  CameraLearner straight({});
+  straight.start(true_camera());
+  drive_on(straight, 0.0, 1.0 / 1.1);
+  EXPECT_FALSE(straight.fault());
+  EXPECT_EQ(straight.belief().bends, 0U);
+  EXPECT_FALSE(straight.belief().knows_focal());
+  EXPECT_EQ(straight.belief().focal_sigma, SelfCalibrationOptions{}.focal_sigma);
+}
+
+TEST(CameraLearner, UsesWhatItLearnedWhenAskedTo) {
+  SelfCalibrationOptions options;
+  options.refine = "focal";
+  CameraLearner learner(options);
+  learner.start(true_camera());
+  drive_on(learner, 0.03, 1.03);
+  EXPECT_NEAR(learner.used().fx, 720.0 * 1.03, 720.0 * 0.01);
+  EXPECT_EQ(learner.used().cx, true_camera().cx);
+  EXPECT_FALSE(learner.fault());
+  EXPECT_GE(learner.belief().history.size(), 3U);
+}
+
+TEST(CameraLearner, LooksAtNothingWhenSwitchedOff) {
+  SelfCalibrationOptions options;
+  options.check = false;
+  CameraLearner learner(options);
+  learner.start(true_camera());
+  drive_on(learner, 0.03, 1.0 / 1.1);
+  EXPECT_EQ(learner.belief().bends, 0U);
+  EXPECT_FALSE(learner.fault());
+}
+
+}  // namespace
+}  // namespace oneac

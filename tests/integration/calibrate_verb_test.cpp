@@ -1,0 +1,82 @@
+#include "oneac/test_support/program.h"
+#include "oneac/test_support/temporary_folder.h"
+
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <string>
+#include <vector>
+
+namespace oneac {
+namespace {
+
+std::string text_of(const std::filesystem::path& file) {
+  std::ifstream in(file);
+  return {std::istreambuf_iterator<char>(in), {}};
+}
+
+double value_of(const std::string& ini, const std::string& key) {
+  const auto at = ini.find("\n" + key + " = ");
+  if (at == std::string::npos) return 0.0;
+  return std::stod(ini.substr(at + key.size() + 4));
+}
+
+class CalibrateVerb : public ::testing::Test {
+ protected:
+  /// A drive whose camera has f 250 px and c (159.5, 119.5).
+  std::string simulate(std::vector<std::string> flags) {
+    std::vector<std::string> command = {ONEAC_PROGRAM, "simulate", "-o",       folder("drive"),
+                                        "--width",     "320",      "--height", "240",
+                                        "--focal",     "250",      "--stop",   "0"};
+    command.insert(command.end(), flags.begin(), flags.end());
+    EXPECT_EQ(run_program(command).exit_code, 0);
+    return folder("drive") + "/simulated.rawlog";
+  }
+  [[nodiscard]] std::string folder(const std::string& name) const {
+    return (scratch_.path() / name).string();
+  }
+
+ private:
+  TemporaryFolder scratch_;
+};
+
+TEST_F(CalibrateVerb, FindsTheCameraFromAFieldOfViewAndRunReadsItBack) {
+  const std::string log = simulate({"--frames", "110"});
+  const std::string ini = folder("camera.ini");
+  const ProgramResult result =
+      run_program({ONEAC_PROGRAM, "calibrate", log, "-o", ini, "--fov-deg", "80"});
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_NE(result.out.find("% in f"), std::string::npos) << result.out;
+  const std::string text = text_of(ini);
+  EXPECT_NEAR(value_of(text, "fx"), 250.0, 250.0 * 0.015) << text;
+  EXPECT_NEAR(value_of(text, "cx"), 159.5, 3.0) << text;
+  EXPECT_NE(text_of(folder("report.html")).find("Residuals by image region"), std::string::npos);
+  const ProgramResult run = run_program({ONEAC_PROGRAM, "run", log, "-o", folder("out"), "--count",
+                                         "5", "--calibration", ini, "--no-progress"});
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  const auto summary = nlohmann::json::parse(text_of(folder("out") + "/summary.json"));
+  EXPECT_EQ(summary["camera"]["fx_px"].get<double>(), value_of(text, "fx"));
+}
+
+TEST_F(CalibrateVerb, SaysThatAStraightRoadCannotTell) {
+  const std::string log = simulate({"--frames", "30", "--route", "straight"});
+  const ProgramResult result =
+      run_program({ONEAC_PROGRAM, "calibrate", log, "-o", folder("camera.ini")});
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_NE(result.out.find("cannot tell the focal length"), std::string::npos) << result.out;
+  EXPECT_EQ(value_of(text_of(folder("camera.ini")), "fx"), 250.0);
+}
+
+TEST_F(CalibrateVerb, RefusesAFieldOfViewThatNoCameraHas) {
+  const ProgramResult result = run_program(
+      {ONEAC_PROGRAM, "calibrate", "a.rawlog", "-o", folder("camera.ini"), "--fov-deg", "200"});
+  EXPECT_EQ(result.exit_code, 2);
+  EXPECT_NE(result.err.find("--fov-deg"), std::string::npos) << result.err;
+}
+
+}  // namespace
+}  // namespace oneac
