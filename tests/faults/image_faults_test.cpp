@@ -78,7 +78,7 @@ TEST_F(ImageFaults, ACmykJpegIsReadAsGrey) {
   test::write_log(log(), {test::external_image("CAM", 0, "cmyk.jpg"),
                           test::external_image("CAM", 0.1, "cmyk.jpg")});
   expect_exit(run(), 0, {});
-  RawlogSource source({log(), {}, "", "", "auto", {}, 0, 0, 1});
+  RawlogSource source({log(), {}, "", "", "auto", {}, 0, 0, 1, false, 0.0, {}});
   const CameraFrame frame = source.load(source.next().value());
   const ImageView view = frame.image.view();
   EXPECT_LT(view.data[view.stride * 20 + 4], 60);  // black ink fades out from left to right
@@ -112,7 +112,7 @@ TEST_F(ImageFaults, ImagesOfAFewPixelsGiveFinitePoses) {
 
 TEST_F(ImageFaults, AnImageThatVanishesDuringTheRunIsNamed) {
   test::write_log(log(), textured_frames(3));
-  RawlogSource source({log(), {}, "", "", "auto", {}, 0, 0, 1});
+  RawlogSource source({log(), {}, "", "", "auto", {}, 0, 0, 1, false, 0.0, {}});
   const auto ticket = source.next();
   fs::rename(scratch() / "frame_0.png", scratch() / "elsewhere.png");
   const std::string fault = test::input_error([&] { static_cast<void>(source.load(*ticket)); });
@@ -124,7 +124,7 @@ TEST_F(ImageFaults, AnImageThatVanishesDuringTheRunIsNamed) {
 
 TEST_F(ImageFaults, ALogThatIsMovedDuringTheRunIsReadOn) {
   test::write_log(log(), textured_frames(3));
-  RawlogSource source({log(), {}, "", "", "auto", {}, 0, 0, 1});
+  RawlogSource source({log(), {}, "", "", "auto", {}, 0, 0, 1, false, 0.0, {}});
   fs::rename(log(), scratch() / "elsewhere.rawlog");
   std::size_t frames = 0;
   while (source.next()) ++frames;

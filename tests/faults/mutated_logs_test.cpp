@@ -44,7 +44,7 @@ class MutatedLogs : public FaultFixture {
     SummaryOptions summary_options;
     summary_options.log = log();
     static_cast<void>(to_text(summarise_log(summary_options)));
-    RawlogSource source({log(), {}, camera, "", "auto", {}, 0, 0, 1});
+    RawlogSource source({log(), {}, camera, "", "auto", {}, 0, 0, 1, false, 0.0, {}});
     while (const auto ticket = source.next()) static_cast<void>(source.load(*ticket));
     source.finish();
   }
@@ -91,7 +91,7 @@ TEST_F(MutatedLogs, ACutLogIsUsedUpToTheCutAndNeverASuccess) {
     test::write_bytes(log(), whole.substr(0, cut));
     std::string damage;
     try {
-      RawlogSource source({log(), {}, "GREY", "", "auto", {}, 0, 0, 1});
+      RawlogSource source({log(), {}, "GREY", "", "auto", {}, 0, 0, 1, false, 0.0, {}});
       while (source.next()) continue;
       damage = source.report().damage;
     } catch (const InputError& error) {

@@ -120,7 +120,7 @@ bool Calibration::knows_focal() const {
          estimate.sigma(kFocal) < 0.5 * prior.focal;
 }
 
-void CalibrateOptions::validate() const {
+void CalibrateOptions::validate() {
   run.validate();
   if (run.log.empty()) {
     throw InputError("calibrate", "no rawlog given", "oneac calibrate LOG -o camera.ini");

@@ -18,7 +18,7 @@ struct CalibrateOptions {
   int passes = 4;  ///< over the drive, at most: each tracks with the camera of the last
 
   /// @throws InputError naming flag, value and bound
-  void validate() const;
+  void validate();
 };
 
 /// A camera out of a drive.

@@ -36,7 +36,7 @@ class Guarded : public ::testing::Test {
   /// The only frame of a log with this image.
   GreyImage through_a_log(const cv::Mat& pixels) {
     test::write_log(file_, {test::stored_image("CAM", 0, pixels)});
-    RawlogSource source({file_, {}, "", "", "auto", {}, 0, 0, 1});
+    RawlogSource source({file_, {}, "", "", "auto", {}, 0, 0, 1, false, 0.0, {}});
     return source.load(source.next().value()).image;
   }
   TemporaryFolder folder_;
@@ -237,7 +237,7 @@ TEST_F(Guarded, ImagesInsideASensoryFrameStayApart) {
   *frame += mrpt::obs::CObservation::Ptr(test::stored_image("A", 0, test::ramp(10)));
   *frame += mrpt::obs::CObservation::Ptr(test::stored_image("B", 0, test::ramp(90)));
   test::write_log(file_, {frame});
-  RawlogSource source({file_, {}, "B", "", "auto", {}, 0, 0, 1});
+  RawlogSource source({file_, {}, "B", "", "auto", {}, 0, 0, 1, false, 0.0, {}});
   EXPECT_EQ(source.load(source.next().value()).image.view().data[0], 90);
 }
 
