@@ -52,12 +52,12 @@ TEST_F(SensorFaults, OfTwoInterleavedCamerasOneIsChosenAndFollowed) {
   EXPECT_EQ(poses_written(), 5U);
 }
 
-TEST_F(SensorFaults, CalibrationOfAnotherResolutionIsRefused) {
+TEST_F(SensorFaults, CalibrationOfAnotherAspectIsRefused) {
   test::write_log(log(), textured_frames(3));
   test::write_bytes(scratch() / "large.ini",
-                    "[CAM]\nresolution=[1024 768]\ncx=500\ncy=380\nfx=900\nfy=900\ndist=[0 0]\n");
+                    "[CAM]\nresolution=[1024 512]\ncx=500\ncy=250\nfx=900\nfy=900\ndist=[0 0]\n");
   expect_exit(run({"--calibration", (scratch() / "large.ini").string()}), 2,
-              {"64x48", "1024x768", "--calibration"});
+              {"64x48", "1024x512", "--calibration"});
 }
 
 // Who has rectified images beside a log with the raw calibration must be able to notice.

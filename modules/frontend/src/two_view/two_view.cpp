@@ -85,7 +85,10 @@ TwoView TwoViewEstimator::estimate(TrackedPair pair, const TwoViewPrior& prior) 
   InitialiserResult found = initialise(pair, told, prior, result.estimate_ms);
   if (whole && step_status(found.status) == StepStatus::kNoMotion) {
     whole = !take_the_sky_apart(pair, prior, told);
-    if (!whole) found = initialise(pair, told, prior, result.estimate_ms);
+    // That may turn a rest's rotation, but make no motion of it: traffic is below the sky, too.
+    InitialiserResult below = found;
+    if (!whole) below = initialise(pair, told, prior, result.estimate_ms);
+    if (step_status(below.status) == StepStatus::kNoMotion) found = std::move(below);
   }
   result.status = step_status(found.status);
   result.inlier_count = found.inlier_count;
