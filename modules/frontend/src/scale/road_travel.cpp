@@ -1,5 +1,7 @@
 #include "road_travel.h"
 
+#include "two_view/below_the_sky.h"
+
 #include <algorithm>
 #include <cmath>
 
@@ -20,7 +22,7 @@ constexpr double kLeastExpectedSigma = 0.03;  // [heights]
 constexpr double kBeyond = 3.0;  // [σ]
 // [heights] what keeps its place on glass and sensor pulls a length of less than a pixel.
 constexpr double kLeastSigma = 0.003;
-constexpr double kMoving = 0.05, kCreeping = 0.15;
+constexpr double kMoving = 0.05;
 
 double rms(const Eigen::Matrix3d& covariance, double unknown) {
   const double variance = covariance.trace() / 3.0;

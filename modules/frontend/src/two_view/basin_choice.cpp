@@ -1,5 +1,6 @@
 #include "basin_choice.h"
 
+#include "oneac/geometry/angular_errors.h"
 #include "oneac/geometry/essential.h"
 
 #include <Eigen/Geometry>
@@ -7,7 +8,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <optional>
 #include <utility>
 #include <vector>
 
@@ -31,12 +31,8 @@ struct Basin {
   double cost = 0.0;
 };
 
-double angle_between(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
-  return std::atan2(a.cross(b).norm(), a.dot(b));
-}
-
 double surprise(const Eigen::Vector3d& t, const Course& course) {
-  const double off = angle_between(t, course.direction) / course.sigma;
+  const double off = direction_error(t, course.direction) / course.sigma;
   return std::min(0.5 * off * off, kMostSurprise);
 }
 
@@ -95,7 +91,7 @@ TwoView of_two(const Basin& here, const Basin& there, TwoView found,
 TwoView in_likelier_basin(TwoView found, const std::vector<bool>& told, const Course& course,
                           const RefineOptions& refine, double threshold_px) {
   if (found.status != StepStatus::kOk || !(course.sigma > 0.0)) return found;
-  const double off = angle_between(found.pose.t, course.direction);
+  const double off = direction_error(found.pose.t, course.direction);
   if (off < kSurprising * course.sigma || off > kFarthest) return found;
   const std::vector<AffineCorrespondence> acs = affine_parts(found.pair);
   const RefineResult here = refine_two_view(acs, told, found.pose, found.focal_px, refine);

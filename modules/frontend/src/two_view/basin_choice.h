@@ -10,9 +10,9 @@ namespace oneac {
 /// A pair of far points alone often has two poses that explain it as well (a far plane's second
 /// homography, tracks that slip along poles): one where the two views were found, the other near
 /// the vehicle's course. A pair whose direction is no surprise is returned as it is. Else both are
-/// refined over all correspondences, and the posterior of the two decides, with costs as negative
-/// log-likelihoods and the course as prior. The covariance is that of the mixture, so that a choice
-/// which is not sure says so.
+/// refined over those to go by, the second with the course as prior, and the posterior of the two
+/// decides, with costs as negative log-likelihoods. The covariance is that of the mixture, so that
+/// a choice which is not sure says so.
 /// @param told  those to go by, one per correspondence
 /// @param threshold_px  of the inliers of a pose that is changed
 [[nodiscard]] TwoView in_likelier_basin(TwoView found, const std::vector<bool>& told,

@@ -8,13 +8,10 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <utility>
 
 namespace oneac {
 namespace {
 
-// [camera heights] of a step: below it even the near road moves by a few pixels only.
-constexpr double kCreeping = 0.15;
 // [rad] above the horizon: houses and hedges, and no cloud that is near enough to be seen drifting.
 constexpr double kHighest = 3.0 * kDegree;
 // As many as a consensus needs to tell traffic from what stands.

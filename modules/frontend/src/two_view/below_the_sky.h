@@ -11,6 +11,9 @@
 
 namespace oneac {
 
+/// [camera heights] A car whose steps are shorter creeps: even the near road moves by a few pixels.
+constexpr double kCreeping = 0.15;
+
 /// Whether a car of which this is expected creeps or stands: then clouds drift through the image as
 /// fast as what is near.
 [[nodiscard]] bool creeps(const MotionPrior& expected);
