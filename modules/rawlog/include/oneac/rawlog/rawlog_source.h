@@ -26,8 +26,7 @@ struct SourceOptions {
   std::size_t every = 1;                  ///< use every K-th image from `first` on; ≥ 1
   bool stereo = false;               ///< load the right image beside the left one, where it exists
   double undistorted_fov_deg = 0.0;  ///< across undistorted images [deg]; 0: the road is kept
-  std::optional<PinholeCamera>
-      camera_model;  ///< the same as `calibration` by value; goes before it
+  std::optional<PinholeCamera> camera_model = {};  ///< `calibration` by value; goes before it
 
   /// @throws InputError naming flag, value and bound
   void validate() const;
@@ -41,10 +40,9 @@ struct SourceReport {
   std::size_t pairs_delivered = 0;  ///< with `stereo`: images delivered with their right one
   std::string first_lone;           ///< name of the first that was delivered without, else ""
   std::string damage;  ///< one line (file, record, fault, cure) when the log ends badly, else ""
-  std::string names_out_of_order;  ///< one line with the cure, else ""
-  VehicleReference reference;      ///< GPS and IMU seen on the way
-  std::string
-      calibration_scaled;  ///< one line: the given calibration was for another size, else ""
+  std::string names_out_of_order;   ///< one line with the cure, else ""
+  VehicleReference reference;       ///< GPS and IMU seen on the way
+  std::string calibration_scaled;   ///< one line: it was given for another size, else ""
   bool undistorted_by_log = false;  ///< images are taken for raw, because the log's calibration is
 };
 
