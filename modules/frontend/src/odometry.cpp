@@ -1,6 +1,7 @@
 #include "odometry.h"
 
 #include "map/chained_pose.h"
+#include "two_view/below_the_sky.h"
 #include "uncertainty/step_covariance.h"
 
 #include "oneac/base/thread_clock.h"
@@ -141,9 +142,11 @@ FrameResult Odometry::start(const CameraFrame& frame) {
 }
 
 FrameResult Odometry::advance(const CameraFrame& frame, TrackedPair pair, const RoadPair& road) {
-  TwoView seen = two_view_.estimate(
-      std::move(pair), {attitude_.now().R_level_cam, last_motion_, frame.camera.focal_px(),
-                        map_.frames(), course_.now(straight_ahead()), motion_prior(frame.time_s)});
+  TwoViewPrior prior{attitude_.now().R_level_cam,   last_motion_,
+                     frame.camera.focal_px(),       map_.frames(),
+                     course_.now(straight_ahead()), motion_prior(frame.time_s)};
+  if (scale_.is_metric() && creeps(prior.motion)) prior.depths = map_.depths(pair);
+  TwoView seen = two_view_.estimate(std::move(pair), prior);
   const double estimate_ms = seen.estimate_ms, refine_ms = seen.refine_ms;
   std::string fault = std::move(seen.fault);
   double map_ms = 0.0;

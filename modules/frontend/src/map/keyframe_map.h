@@ -46,6 +46,10 @@ class KeyframeMap {
 
   /// The first frame of the drive.
   [[nodiscard]] FrameInMap start(const FrameStamp& frame, double focal_px);
+  /// Of the landmarks that the next step sees, in the newest frame [map]; empty without a window.
+  [[nodiscard]] PointDepths depths(const TrackedPair& step) const {
+    return window_ ? window_->depths(step, T_cam_map_) : PointDepths{};
+  }
   /// Carries the tracks of the newest step on.
   [[nodiscard]] MapLink link(const TwoView& seen);
   /// Moves the camera to the new frame. When that becomes a keyframe the window is adjusted, and

@@ -70,6 +70,19 @@ std::optional<LengthMeasurement> LocalMap::carry(const RelativePose& unit_step,
   return carried;
 }
 
+PointDepths LocalMap::depths(const TrackedPair& step, const RelativePose& T_before_map) const {
+  PointDepths depths(step.size());
+  for (std::size_t i = 0; i < step.size(); ++i) {
+    const auto at = tracks_.find(step.correspondences[i].track);
+    if (at == tracks_.end() || !is_sure(at->second)) continue;
+    const Track& track = at->second;
+    const RelativePose T = T_before_map * keyframe(track.anchor).T_cam_map.inverse();
+    const double z = (T * (track.ray.homogeneous() / track.inverse_depth)).z();
+    if (z > 0.0) depths[i] = MeasuredDepth{z, relative_sigma(track)};
+  }
+  return depths;
+}
+
 bool LocalMap::needs_keyframe(const RelativePose& T_cam_map, double seconds) const {
   const WindowKeyframe& last = window_.back();
   const Eigen::Matrix3d R = T_cam_map.R * last.T_cam_map.R.transpose();

@@ -36,6 +36,8 @@ class LocalMap {
   /// Length of the step (R, t̂) from the frame before to this one by the landmarks that both see.
   [[nodiscard]] std::optional<LengthMeasurement> carry(const RelativePose& unit_step,
                                                        const RelativePose& T_before_map) const;
+  /// Depths of the landmarks that a step sees, in the frame before [map]; one per correspondence.
+  [[nodiscard]] PointDepths depths(const TrackedPair& step, const RelativePose& T_before_map) const;
   /// Whether the newest frame should be a keyframe.
   [[nodiscard]] bool needs_keyframe(const RelativePose& T_cam_map, double seconds) const;
   /// Makes the newest frame one, and landmarks of the tracks that it shares with older ones.

@@ -2,6 +2,7 @@
 
 #include "basin_choice.h"
 #include "below_the_sky.h"
+#include "by_depths.h"
 #include "perspective_correction.h"
 
 #include "oneac/base/thread_clock.h"
@@ -66,6 +67,17 @@ bool take_the_sky_apart(const TrackedPair& pair, const TwoViewPrior& prior,
   return true;
 }
 
+/// By the right image, else by the map; empty when nobody knows one.
+PointDepths depths_of(const TrackedPair& pair, const PointDepths& by_map) {
+  PointDepths depths = by_map.size() == pair.size() ? by_map : PointDepths(pair.size());
+  for (std::size_t i = 0; i < pair.size(); ++i) {
+    if (pair.correspondences[i].depth) depths[i] = pair.correspondences[i].depth;
+  }
+  const bool known = std::any_of(depths.begin(), depths.end(),
+                                 [](const auto& depth) { return depth.has_value(); });
+  return known ? depths : PointDepths{};
+}
+
 }  // namespace
 
 TwoViewEstimator::TwoViewEstimator(const FrontEndOptions& options,
@@ -108,7 +120,10 @@ TwoView TwoViewEstimator::estimate(TrackedPair pair, const TwoViewPrior& prior) 
   if (result.status == StepStatus::kOk && refine_enabled_) {
     result = in_likelier_basin(std::move(result), told, prior.course, refine_, threshold_px_);
   }
-  return whole ? result : with_the_sky(std::move(result), told, threshold_px_);
+  if (!whole) result = with_the_sky(std::move(result), told, threshold_px_);
+  const PointDepths depths = depths_of(result.pair, prior.depths);
+  if (depths.empty()) return result;
+  return creeping_by_depths(std::move(result), depths, prior, threshold_px_);
 }
 
 CheckedAnswer TwoViewEstimator::initialise(const TrackedPair& pair, const std::vector<bool>& told,

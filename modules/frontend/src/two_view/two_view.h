@@ -28,6 +28,8 @@ struct TwoViewPrior {
   std::uint64_t number = 0;  ///< of the pair in the drive: methods that draw at random differ by it
   Course course;             ///< of the vehicle, from the steps before
   MotionPrior motion;        ///< direction and length [camera heights] that inertia lets expect
+  /// [m] of the landmarks among the correspondences, one each; empty where none is known in metres.
+  PointDepths depths = {};
 };
 
 /// What two images alone say about the motion between them.

@@ -17,6 +17,9 @@ struct MeasuredDepth {
   double sigma = 0.0;  ///< relative 1σ
 };
 
+/// One per correspondence, where it is known.
+using PointDepths = std::vector<std::optional<MeasuredDepth>>;
+
 /// An affine correspondence of two images with all that is known of it, from the tracker to the
 /// map. Image units are those of its pair: pixels out of the tracker, where A = ∂u2/∂u1, and
 /// normalised after normalised().
