@@ -62,15 +62,16 @@ std::optional<MeasuredTravel> road_travel(const RoadPair& road, const TwoView& s
   expect(prior, height, directed, step);
   const RoadAlignment aligned = align_road(road.first, road.second, road.camera, step, road.mask);
   if (aligned.status != RoadStatus::kMeasured) return std::nullopt;
-  const double reach = kBeyond * aligned.sigma;  // the fit may leave what was searched
+  const double sigma = std::max(aligned.sigma, kLeastSigma);
+  const double reach = kBeyond * sigma;  // the fit may leave what was searched
   if (aligned.length < step.min_length - reach || aligned.length > step.max_length + reach) {
     return std::nullopt;
   }
   // Two views saw a translation: a road that rests contradicts them, and one of the two is wrong.
   if (directed && aligned.length < reach) return std::nullopt;
   const double unit = prior.camera_height > 0.0 ? prior.camera_height : 1.0;
-  return MeasuredTravel{aligned.length * unit, std::max(aligned.sigma, kLeastSigma) * unit,
-                        LengthSource::kRoadImage, prior.camera_height > 0.0};
+  return MeasuredTravel{aligned.length * unit, sigma * unit, LengthSource::kRoadImage,
+                        prior.camera_height > 0.0};
 }
 
 }  // namespace oneac
