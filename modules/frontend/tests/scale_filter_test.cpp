@@ -80,12 +80,24 @@ TEST(ScaleFilter, KeepsTheMapsScaleAgainstASingleOutlier) {
   EXPECT_NEAR(filter.correct(1.02, 0.03), 1.0, 0.02);
 }
 
-TEST(ScaleFilter, BelievesWhatIsSaidAgainAndAgain) {
+/// Factor after five measurements that the filter does not believe, so many metres apart.
+double factor_after_contradictions(double apart) {
   ScaleFilter filter{ScaleOptions{}};
   static_cast<void>(filter.correct(1.0, 0.02));
   double factor = 1.0;
-  for (int i = 0; i < 5; ++i) factor *= filter.correct(1.8, 0.03);
-  EXPECT_NEAR(factor, 1.8, 1e-12);
+  for (int i = 0; i < 5; ++i) {
+    static_cast<void>(filter.drift(apart, 0.0));
+    factor *= filter.correct(1.8, 0.03);
+  }
+  return factor;
+}
+
+TEST(ScaleFilter, BelievesWhatIsSaidAgainAndAgain) {
+  EXPECT_NEAR(factor_after_contradictions(3.0), 1.8, 1e-12);
+}
+
+TEST(ScaleFilter, DoesNotTakeOneFootwayForManyMeasurements) {
+  EXPECT_DOUBLE_EQ(factor_after_contradictions(0.5), 1.0);
 }
 
 TEST(ScaleFilter, GrowsUncertainWithoutMeasurements) {

@@ -22,8 +22,12 @@ constexpr double kBend = 2.0;
 constexpr double kTurn = 0.03 * kDegree;
 // [rad/√m] the slope of a road wanders by 1° (1.7 %) in 100 m.
 constexpr double kSlopeWalk = 0.1 * kDegree;
-// [σ] a measurement farther off counts as if it were so far off: a bump is no slope.
+// [σ] a measurement farther off counts as if it were so far off: a bump is no slope. What of it is
+// not believed makes the tilt less certain.
 constexpr double kFarthest = 3.0;
+// [rad] 1σ of the pitch of a step whose direction rain or a truck has led astray: its turn is off,
+// too.
+constexpr double kAstray = 0.3 * kDegree;
 
 double squared(double value) {
   return value * value;
@@ -57,7 +61,7 @@ Tilt SuspensionTilt::tilt_before(const Eigen::Matrix3d& R_now_before) const {
 void SuspensionTilt::add_step(const TiltStep& step, const TiltBelief& mounting) {
   if (!step.R_2_1.allFinite()) return;
   turn(step);
-  if (step.travel) measure_travel(*step.travel);
+  if (step.travel) measure_travel(*step.travel, mounting);
   hold_roll(step.seconds, mounting);
 }
 
@@ -72,11 +76,22 @@ void SuspensionTilt::turn(const TiltStep& step) {
   covariance_.diagonal().array() += squared(kTurn) + squared(kSlopeWalk) * step.length;
 }
 
-void SuspensionTilt::measure_travel(const TiltStep::Travel& travel) {
+void SuspensionTilt::measure_travel(const TiltStep::Travel& travel, const TiltBelief& mounting) {
   const Eigen::Vector3d along = levelling_rotation(tilt_) * travel.direction;
   if (!(std::abs(along.z()) > kMainlyForward)) return;
   // A normal that is pitched up or rolled right too far has the travel rise or fall, by so much.
-  measure({-along.z(), along.x()}, std::asin(std::clamp(along.y(), -1.0, 1.0)), travel.sigma);
+  const Eigen::Vector3d normal = road_normal(tilt_);
+  const double by_images = std::max(normal.dot(travel.covariance * normal), 0.0);
+  const double variance = squared(travel.sigma) + by_images;
+  // Springs go so far and no farther, so that is no way on wheels.
+  const double springs = std::sqrt(squared(kSprings) + squared(mounting.pitch_sigma) + variance);
+  const double elevation = road_normal(mounting.tilt).dot(travel.direction);
+  if (std::abs(elevation) > kFarthest * springs) {
+    covariance_(0, 0) += squared(kAstray);
+    return;
+  }
+  measure({-along.z(), along.x()}, std::asin(std::clamp(along.y(), -1.0, 1.0)),
+          std::sqrt(variance));
 }
 
 void SuspensionTilt::hold_roll(double seconds, const TiltBelief& mounting) {
@@ -91,12 +106,14 @@ void SuspensionTilt::measure(const Eigen::Vector2d& row, double off, double sigm
   const double variance = row.dot(covariance_ * row) + squared(sigma);
   if (!std::isfinite(variance) || !std::isfinite(off) || !(sigma > 0.0)) return;
   const double farthest = kFarthest * std::sqrt(variance);
+  const double believed = std::clamp(off, -farthest, farthest);
   const Eigen::Vector2d gain = covariance_ * row / variance;
-  const Eigen::Vector2d correction = gain * std::clamp(off, -farthest, farthest);
+  const Eigen::Vector2d correction = gain * believed;
   tilt_.pitch_up -= correction(0);
   tilt_.roll_right -= correction(1);
   const Eigen::Matrix2d kept = Eigen::Matrix2d::Identity() - gain * row.transpose();
-  covariance_ = kept * covariance_ * kept.transpose() + squared(sigma) * gain * gain.transpose();
+  covariance_ = kept * covariance_ * kept.transpose() +
+                (squared(sigma) + squared(off - believed)) * gain * gain.transpose();
 }
 
 }  // namespace oneac

@@ -26,7 +26,9 @@ TiltStep tilt_step(const StepResult& step) {
   const double speed = step.metric && timed ? step.length / result.seconds : kUsualSpeed;
   result.length = speed * result.seconds;
   if (!(speed > 0.0)) return result;
-  result.travel = {step.pose.t.normalized(), std::hypot(kDirection, kHeave / speed)};
+  const double squared_length = step.pose.t.squaredNorm();
+  result.travel = {step.pose.t.normalized(), std::hypot(kDirection, kHeave / speed),
+                   step.covariance.bottomRightCorner<3, 3>() / squared_length};
   return result;
 }
 

@@ -1,5 +1,8 @@
 #include "scale.h"
 
+#include "oneac/geometry/angles.h"
+#include "oneac/geometry/angular_errors.h"
+
 #include <algorithm>
 #include <cmath>
 
@@ -19,6 +22,8 @@ constexpr double kMoves = 2.5;
 constexpr double kStillness = 0.02;
 // [m or heights] a rest that is known no better than this says nothing in metres.
 constexpr double kSureRest = 0.05;
+// [rad] of a direction that is the car's, not that of somebody who crosses.
+constexpr double kAlong = 15.0 * kDegree;
 
 /// Weighted mean, under the name of the surer; errors that the two share (the road's plane, the
 /// height) do not average out, so it is no surer than the surer one.
@@ -31,6 +36,14 @@ StepLength mean_of(const StepLength& a, const StepLength& b) {
   result.landmarks = std::max(a.landmarks, b.landmarks);
   result.ground_acs = std::max(a.ground_acs, b.ground_acs);
   return result;
+}
+
+/// Whether two views show a way along wheels, and inertia does not speak for a rest: what rests
+/// before the car may be a truck then that moves off as it does.
+bool may_follow(const TwoView& seen, const Eigen::Vector3d& heading,
+                const ExpectedLength& expected) {
+  const bool speaks = expected.length <= kStillness && expected.sigma <= kSureRest;
+  return !speaks && direction_error(seen.pose.t, heading) < kAlong;
 }
 
 /// Whether a car of which this is expected may have come to rest.
@@ -46,6 +59,7 @@ std::optional<MeasuredTravel> Scale::rest_by_road(const RoadPair& road, const Tw
                                                   const StepInTime& step) {
   const auto expected = inertia_.expect(step.begin_s, step.end_s);
   if (seen.status != StepStatus::kOk || !could_stand(expected)) return std::nullopt;
+  if (may_follow(seen, heading, *expected)) return std::nullopt;
   TwoView rest;
   rest.status = StepStatus::kNoMotion;
   rest.focal_px = seen.focal_px;

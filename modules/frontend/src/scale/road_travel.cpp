@@ -23,6 +23,7 @@ constexpr double kBeyond = 3.0;  // [σ]
 // [heights] what keeps its place on glass and sensor pulls a length of less than a pixel.
 constexpr double kLeastSigma = 0.003;
 constexpr double kMoving = 0.05;
+constexpr double kSurely = 2.0;  // [σ] of inertia that says so
 
 double rms(const Eigen::Matrix3d& covariance, double unknown) {
   const double variance = covariance.trace() / 3.0;
@@ -33,7 +34,8 @@ double rms(const Eigen::Matrix3d& covariance, double unknown) {
 void expect(const RoadTravelPrior& prior, double height, bool moves, RoadStep& step) {
   const double fastest = std::max(kLeastHeights, kFastest * prior.seconds / height);
   step.max_length = std::min(fastest, 20.0);
-  const bool creeps = prior.expected && prior.expected->length < kCreeping * height;
+  const bool creeps = prior.expected &&
+                      prior.expected->length + kSurely * prior.expected->sigma < kCreeping * height;
   if (moves && !creeps) step.min_length = std::min(kMoving, step.max_length);
   if (!prior.expected) return;
   step.length = prior.expected->length / height;
@@ -41,6 +43,16 @@ void expect(const RoadTravelPrior& prior, double height, bool moves, RoadStep& s
   step.min_length = std::clamp(prior.expected->least / height, step.min_length, step.max_length);
   step.max_length =
       std::clamp(prior.expected->most / height + kLeastHeights, step.min_length, step.max_length);
+}
+
+/// Whether the direction is one that wheels take, as far as level, springs and images are known:
+/// one that rises by 3° makes the road's length wrong by a quarter.
+bool lies_in_the_road(const RoadStep& step, double direction_sigma) {
+  const Eigen::Vector3d along = step.T_2_1.R.transpose() * step.T_2_1.t.normalized();
+  const double elevation = std::asin(std::clamp(step.R_level_cam.row(1).dot(along), -1.0, 1.0));
+  const double springs = RoadAlignmentOptions().heave / std::max(step.length, kMoving);
+  const double level = std::hypot(step.pitch_sigma, direction_sigma);
+  return std::abs(elevation) <= kBeyond * std::hypot(level, springs);
 }
 
 }  // namespace
@@ -53,13 +65,15 @@ std::optional<MeasuredTravel> road_travel(const RoadPair& road, const TwoView& s
   RoadStep step;
   step.T_2_1 = {seen.pose.R, directed ? seen.pose.t : prior.heading};
   if (!step.T_2_1.is_finite() || !(step.T_2_1.t.norm() > 0.0)) return std::nullopt;
-  step.information = motion_information(
-      rms(seen.covariance.topLeftCorner<3, 3>(), kTurnSigma),
-      directed ? rms(seen.covariance.bottomRightCorner<3, 3>(), kTravelSigma) : kHeadingSigma);
+  const double direction_sigma =
+      directed ? rms(seen.covariance.bottomRightCorner<3, 3>(), kTravelSigma) : kHeadingSigma;
+  step.information =
+      motion_information(rms(seen.covariance.topLeftCorner<3, 3>(), kTurnSigma), direction_sigma);
   step.R_level_cam = prior.first.R_level_cam;
   step.pitch_sigma = std::max(prior.first.pitch_sigma, step.pitch_sigma);
   step.roll_sigma = std::max(prior.first.roll_sigma, step.roll_sigma);
   expect(prior, height, directed, step);
+  if (!lies_in_the_road(step, direction_sigma)) return std::nullopt;
   const RoadAlignment aligned = align_road(road.first, road.second, road.camera, step, road.mask);
   if (aligned.status != RoadStatus::kMeasured) return std::nullopt;
   const double sigma = std::max(aligned.sigma, kLeastSigma);

@@ -6,8 +6,10 @@
 namespace oneac {
 namespace {
 
-// So many measurements in a row that are not believed: then it is the map that is wrong.
+// So many measurements in a row that are not believed, over so many stretches of road: then it is
+// the map that is wrong. One kerb or footway is one measurement, however often it is seen.
 constexpr int kPatience = 5;
+constexpr double kStretches = 2.0;
 // [m] of way over which the road's error changes. Most weight has the road 5 to 15 m ahead, so a
 // stretch of it stays in view for 10 m, and halfway half of what is seen is new.
 constexpr double kStretch = 5.0;
@@ -24,6 +26,7 @@ ScaleFilter::ScaleFilter(const ScaleOptions& options)
 
 double ScaleFilter::drift(double way, double carried_variance) {
   const double before = variance_;
+  refused_way_ += std::abs(way);
   variance_ += options_.map_drift * options_.map_drift + kSteps * carried_variance;
   const double kept = std::exp(-std::abs(way) / kStretch);
   error_ *= kept;
@@ -57,7 +60,8 @@ double ScaleFilter::correct(double ratio, double sigma) {
   const double error_share = error_variance_ + covariance_;
   const double total = state_share + error_share + noise;
   if (std::abs(innovation) > options_.outlier_sigmas * std::sqrt(total)) {
-    if (++refused_ < kPatience) return 1.0;
+    if (++refused_ == 1) refused_way_ = 0.0;
+    if (refused_ < kPatience || refused_way_ < kStretches * kStretch) return 1.0;
     began_anew_ = true;
     return start(ratio, noise);
   }

@@ -47,7 +47,8 @@ class ScaleFilter {
   double error_ = 0.0;           ///< that the road's measurements share now, ...
   double error_variance_ = 0.0;  ///< ... its variance ...
   double covariance_ = 0.0;      ///< ... and its covariance with the state
-  int refused_ = 0;
+  int refused_ = 0;              ///< in a row
+  double refused_way_ = 0.0;     ///< [m] since the first of them
   bool began_anew_ = false;
 };
 

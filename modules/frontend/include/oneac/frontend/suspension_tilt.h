@@ -13,7 +13,9 @@ struct TiltStep {
   /// Where the camera went, in its second view, unit length; either way along it.
   struct Travel {
     Eigen::Vector3d direction;
-    double sigma = 0.0;  ///< [rad] 1σ of its elevation against the road
+    double sigma = 0.0;  ///< [rad] 1σ of the way's elevation against the road
+    /// [rad²] of the direction, as the images tell it; zero: not known
+    Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
   };
 
   Eigen::Matrix3d R_2_1 = Eigen::Matrix3d::Identity();
@@ -47,7 +49,7 @@ class SuspensionTilt {
 
  private:
   void turn(const TiltStep& step);
-  void measure_travel(const TiltStep::Travel& travel);
+  void measure_travel(const TiltStep::Travel& travel, const TiltBelief& mounting);
   void hold_roll(double seconds, const TiltBelief& mounting);
   void measure(const Eigen::Vector2d& row, double off, double sigma);
 
