@@ -3,9 +3,11 @@
 #include "terminal/interrupt.h"
 #include "terminal/progress_bar.h"
 
+#include "oneac/base/atomic_file.h"
 #include "oneac/base/error.h"
 #include "oneac/geometry/camera_frame.h"
 #include "oneac/rawlog/drive_recorder.h"
+#include "oneac/simulation/laps.h"
 #include "oneac/simulation/street_simulator.h"
 
 #include <CLI/CLI.hpp>
@@ -29,6 +31,7 @@ struct SimulateArguments {
   bool silent_mount = false;
   std::string calibration_error = "none";
   int threads = 0;
+  int laps = 0;
   bool no_progress = false;
 };
 
@@ -110,10 +113,39 @@ void validate(const SimulationOptions& options) {
   }
 }
 
+/// The drive that was asked for: as many frames as its laps take.
+SimulationOptions drive_of(const SimulateArguments& arguments) {
+  SimulationOptions options = arguments.options;
+  validate(options);
+  if (arguments.laps == 0) return options;
+  if (options.route != RouteKind::kBlock) {
+    throw InputError("simulate", "--laps counts those of a block", "add --route block");
+  }
+  options.frames = frames_for_laps(options, arguments.laps);
+  validate(options);
+  return options;
+}
+
+/// Which of the written frames see a place again.
+void write_loops(const StreetSimulator& simulator, std::size_t written,
+                 const std::filesystem::path& path) {
+  write_file_atomically(path, [&](std::ostream& out) {
+    out.precision(9);
+    out << "index1,index2,t1,t2,qw,qx,qy,qz,tx,ty,tz\n";
+    for (const TrueLoop& loop : true_loops(simulator)) {
+      if (loop.index2 >= written) break;
+      const Eigen::Quaterniond q(loop.T_2_1.linear());
+      const Eigen::Vector3d t = loop.T_2_1.translation();
+      out << loop.index1 << ',' << loop.index2 << ',' << simulator.state(loop.index1).time_s << ','
+          << simulator.state(loop.index2).time_s << ',' << q.w() << ',' << q.x() << ',' << q.y()
+          << ',' << q.z() << ',' << t.x() << ',' << t.y() << ',' << t.z() << '\n';
+    }
+  });
+}
+
 void simulate(const SimulateArguments& arguments) {
-  validate(arguments.options);
   catch_interrupts();
-  const StreetSimulator simulator(arguments.options);
+  const StreetSimulator simulator(drive_of(arguments));
   DriveRecording drive = recording_of(simulator);
   if (arguments.mount == "optical") drive.convention = MountConvention::optical;
   falsify(drive, arguments);
@@ -138,6 +170,10 @@ void simulate(const SimulateArguments& arguments) {
             << "images  " << files.images.string() << " (" << written
             << (arguments.options.stereo ? " pairs" : "") << ")\n"
             << "poses   " << files.poses.string() << '\n';
+  if (arguments.options.route != RouteKind::kBlock) return;
+  const std::filesystem::path loops = arguments.folder / "loops_true.csv";
+  write_loops(simulator, written, loops);
+  std::cout << "loops   " << loops.string() << '\n';
 }
 
 }  // namespace
@@ -159,6 +195,9 @@ void add_simulate(CLI::App& program) {
                    "10 % too long")
       ->check(CLI::IsMember({"none", "full-size", "focal-5", "swapped", "focal-10-percent"}))
       ->capture_default_str();
+  verb->add_option("--laps", arguments->laps, "As many frames as this many laps of the block take")
+      ->check(CLI::PositiveNumber)
+      ->excludes("--frames");
   verb->add_option("--threads", arguments->threads, "0: as many as the machine has")
       ->check(CLI::NonNegativeNumber)
       ->capture_default_str();

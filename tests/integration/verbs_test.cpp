@@ -44,6 +44,29 @@ TEST_F(Verbs, InfoTellsSensorsImagesAndTilt) {
   }
 }
 
+TEST_F(Verbs, SimulateWritesTheTrueLoopsOfABlockAndOfNothingElse) {
+  const std::vector<std::string> small{"--width", "64", "--height", "48",    "--focal",   "50",
+                                       "--fps",   "1",  "--route",  "block", "--block-m", "40"};
+  std::vector<std::string> arguments{"simulate", "-o", out(), "--laps", "2"};
+  arguments.insert(arguments.end(), small.begin(), small.end());
+  const ProgramResult result = oneac_program(arguments);
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  const std::string loops = read_file(fs::path(out()) / "loops_true.csv");
+  EXPECT_EQ(loops.rfind("index1,index2,t1,t2,qw,qx,qy,qz,tx,ty,tz\n", 0), 0U) << loops;
+  EXPECT_GT(std::count(loops.begin(), loops.end(), '\n'), 10) << loops;
+  EXPECT_FALSE(fs::exists(drive() / "loops_true.csv"));
+}
+
+TEST_F(Verbs, SimulateRefusesLapsWithoutABlock) {
+  const ProgramResult laps = oneac_program({"simulate", "-o", out(), "--laps", "2"});
+  EXPECT_EQ(laps.exit_code, 2);
+  EXPECT_NE(laps.err.find("--route block"), std::string::npos) << laps.err;
+  const ProgramResult relit = oneac_program({"simulate", "-o", out(), "--relight"});
+  EXPECT_EQ(relit.exit_code, 2);
+  EXPECT_NE(relit.err.find("--relight"), std::string::npos) << relit.err;
+  EXPECT_FALSE(fs::exists(out()));
+}
+
 TEST_F(Verbs, RawlogEditReadsTheSimulatedLog) {
   const ProgramResult result = run_program({"rawlog-edit", "--info", "-i", log()});
   EXPECT_EQ(result.exit_code, 0) << result.err;

@@ -89,7 +89,15 @@ void add_scene_flags(CLI::App& verb, SimulationOptions& options) {
                       {{"street", RouteKind::kStreet},
                        {"straight", RouteKind::kStraight},
                        {"stop-and-go", RouteKind::kStopAndGo},
-                       {"roundabout", RouteKind::kRoundabout}});
+                       {"roundabout", RouteKind::kRoundabout},
+                       {"block", RouteKind::kBlock}});
+  verb.add_option("--block-m", options.block_m, "Side of the block [m]")->capture_default_str();
+  verb.add_option("--lane-shift-m", options.lane_shift_m,
+                  "Every second lap of the block drives so far to the left [m]")
+      ->capture_default_str();
+  verb.add_flag("--relight", options.relight,
+                "Every second lap of the block: another light, other parked vehicles");
+  verb.add_flag("--alike", options.alike, "Every facade and every street looks like the first");
   add_kind<Scenery>(verb, "--scenery", options.scenery, "Facades, or clouds and far houses",
                     {{"town", Scenery::kTown}, {"far", Scenery::kFar}});
   add_kind<RoadSurface>(verb, "--road", options.road, "What the road shows",
@@ -118,7 +126,7 @@ struct NamedFlag {
   const char *field, *flag;
 };
 /// Of SimulationOptions; those that no flag sets are left out.
-constexpr std::array<NamedFlag, 25> kFlags{{{"frames", "--frames"},
+constexpr std::array<NamedFlag, 28> kFlags{{{"frames", "--frames"},
                                             {"width_px", "--width"},
                                             {"height_px", "--height"},
                                             {"focal_px", "--focal"},
@@ -142,7 +150,10 @@ constexpr std::array<NamedFlag, 25> kFlags{{{"frames", "--frames"},
                                             {"bonnet_share", "--bonnet"},
                                             {"rolling_shutter_s", "--rolling-shutter"},
                                             {"traffic", "--traffic"},
-                                            {"route", "--route"}}};
+                                            {"route", "--route"},
+                                            {"block_m", "--block-m"},
+                                            {"lane_shift_m", "--lane-shift-m"},
+                                            {"relight", "--relight"}}};
 
 }  // namespace
 

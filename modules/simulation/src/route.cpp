@@ -120,6 +120,8 @@ void Route::lay(const SimulationOptions& options, double needed_m) {
       return lay_streets(options, needed_m);
     case RouteKind::kRoundabout:
       return lay_roundabouts(options, needed_m);
+    case RouteKind::kBlock:
+      return lay_block(options, needed_m);
     default:
       return lay_straight(options, needed_m);
   }
@@ -169,6 +171,43 @@ void Route::lay_roundabouts(const SimulationOptions& options, double needed_m) {
   }
 }
 
+/// How far before and beyond the corner of two streets their bend reaches [m]. Lays nothing.
+double Route::bend_extent() {
+  append_bend(0, 1);
+  const double extent = end_.x();
+  nodes_.clear();
+  end_.setZero();
+  end_heading_ = 0.0;
+  return extent;
+}
+
+/// Four streets and bends. Shifts are those of the lap before, this one and the next: a lap that is
+/// shifted inwards drives a smaller square, and starts where the lap before has brought it.
+void Route::append_lap(int side_steps, int shift_before, int shift, int shift_after) {
+  lap_starts_.push_back(nodes_.size());
+  for (int street = 0; street < 4; ++street) {
+    const int at_start = street == 0 ? shift_before : shift;
+    const int at_end = street == 3 ? shift_after : shift;
+    append_straight(side_steps - at_start - at_end, street);
+    append_bend(street, 1);
+  }
+  if (lap_starts_.size() > 1) legs_.resize(4);  // the streets are those of the first lap
+}
+
+void Route::lay_block(const SimulationOptions& options, double needed_m) {
+  constexpr std::size_t kLapsOfTheTown = 2;  // what is built must not depend on how long one drives
+  const auto in_steps = [](double length) { return static_cast<int>(std::lround(length / kStep)); };
+  const int side = in_steps(options.block_m - 2.0 * bend_extent());
+  const int shift = in_steps(options.lane_shift_m);
+  while (lap_starts_.size() < kLapsOfTheTown ||
+         static_cast<double>(nodes_.size()) * kStep < needed_m) {
+    const std::size_t lap = lap_starts_.size();
+    const int own = lap % 2 == 0 ? 0 : shift;
+    const int other = lap % 2 == 0 ? shift : 0;
+    append_lap(side, lap == 0 ? 0 : other, own, other);
+  }
+}
+
 void Route::set_speeds(const SimulationOptions& options) {
   for (Node& node : nodes_) node.speed = node.wait_s > 0.0 ? 0.0 : node.speed_limit;
   const auto reachable = [](double speed, double rate) {
@@ -208,6 +247,17 @@ PlanarState Route::at(double time_s) const {
   return state;
 }
 
+double Route::lap_start_s(int lap) const {
+  return nodes_[lap_starts_.at(static_cast<std::size_t>(lap))].time_s;
+}
+
+int Route::lap_at(double time_s) const {
+  const auto later =
+      std::upper_bound(lap_starts_.begin(), lap_starts_.end(), time_s,
+                       [this](double t, std::size_t node) { return t < nodes_[node].time_s; });
+  return std::max(0, static_cast<int>(later - lap_starts_.begin()) - 1);
+}
+
 std::vector<Stop> Route::stops() const {
   std::vector<Stop> stops;
   for (const Halt& halt : halts_) {
@@ -220,7 +270,8 @@ std::vector<Stop> Route::stops() const {
 std::vector<Eigen::Vector2d> Route::path() const {
   constexpr std::size_t kStride = 20;  // one metre
   std::vector<Eigen::Vector2d> points;
-  for (std::size_t i = 0; i < nodes_.size(); i += kStride) points.push_back(nodes_[i].position);
+  const std::size_t end = lap_starts_.size() > 2 ? lap_starts_[2] : nodes_.size();
+  for (std::size_t i = 0; i < end; i += kStride) points.push_back(nodes_[i].position);
   return points;
 }
 

@@ -13,6 +13,7 @@ namespace {
 constexpr float kToneCos = 0.7986F;  // the slow tone lies 37° askew over the asphalt
 constexpr float kToneSin = 0.6018F;
 
+constexpr float kOtherGround = 0.8F;  // of a lower sun on the road
 constexpr double kCeiling_m = 500.0;  // of the clouds
 constexpr float kOvercast = 190.0F;   // what the haze above the horizon looks like
 constexpr float kHaze = 0.03F;        // sine of the elevation below which no cloud is seen
@@ -26,6 +27,18 @@ float illumination(const Face& face, bool upper) {
       return upper ? 0.68F : 1.0F;
     default:
       return 1.15F;
+  }
+}
+
+/// Light of another hour: from the north-east, lower and weaker.
+float other_illumination(const Face& face, bool upper) {
+  switch (face.axis) {
+    case 0:
+      return upper ? 0.95F : 0.62F;
+    case 1:
+      return upper ? 0.88F : 0.58F;
+    default:
+      return 0.90F;
   }
 }
 
@@ -70,19 +83,21 @@ Texture paint_box(const Box& box, std::uint64_t wall_seed, std::uint64_t obstacl
 
 }  // namespace
 
-Shader::Shader(const Route& route, const std::vector<Box>& boxes, const SimulationOptions& options)
-    : legs_(route.legs()),
+Shader::Shader(const Route& route, const std::vector<Box>& boxes, const SimulationOptions& options,
+               bool relit)
+    : relit_(relit),
+      legs_(route.legs()),
       asphalt_(paint_asphalt(road_look(options.road), options.seed)),
       tone_(paint_road_tone(road_look(options.road), options.seed)) {
   const RoadLook look = road_look(options.road);
-  const auto own_seed = [seed = options.seed](std::size_t kind, std::size_t i) {
-    return mix_bits(seed ^ (kind << 32U)) + i;
+  const auto own_seed = [&options](std::size_t kind, std::size_t i) {
+    return mix_bits(options.seed ^ (kind << 32U)) + (options.alike ? 0 : i);
   };
   for (std::size_t i = 0; i < legs_.size(); ++i) {
     decals_.push_back(paint_decal(look, legs_[i], own_seed(1, i)));
   }
   for (std::size_t i = 0; i < boxes.size(); ++i) {
-    box_textures_.push_back(paint_box(boxes[i], own_seed(2, i), own_seed(3, i)));
+    box_textures_.push_back(paint_box(boxes[i], own_seed(2, i), own_seed(relit ? 4 : 3, i)));
   }
   if (options.scenery == Scenery::kFar) clouds_ = paint_clouds(options.seed);
 }
@@ -107,12 +122,13 @@ float Shader::ground(const Footprint& patch) const {
     local.centre = (p - decal.low).cast<float>();
     grey += decal.texture.sample(local) - neutral;
   }
-  return grey;
+  return relit_ ? kOtherGround * grey : grey;
 }
 
 float Shader::wall(const Face& face, const Box& box, const Footprint& patch) const {
   const Texture& texture = box_textures_[static_cast<std::size_t>(face.box)];
-  const float light = illumination(face, face.upper);
+  const float light =
+      relit_ ? other_illumination(face, face.upper) : illumination(face, face.upper);
   Footprint local = patch;
   if (face.axis == 2) {
     local.centre -= box.low.head<2>().cast<float>();

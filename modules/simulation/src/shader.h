@@ -13,7 +13,9 @@ namespace oneac::simulation {
 /// What every surface of the town looks like.
 class Shader {
  public:
-  Shader(const Route& route, const std::vector<Box>& boxes, const SimulationOptions& options);
+  /// @param relit  with the sun in the north-east and other parked vehicles
+  Shader(const Route& route, const std::vector<Box>& boxes, const SimulationOptions& options,
+         bool relit);
 
   /// Grey level of a face at a pixel, averaged over the pixel. @pre the face is in front there
   /// @param boxes  as they stand now: the ones given, moved
@@ -26,6 +28,7 @@ class Shader {
   [[nodiscard]] float ground(const Footprint& patch) const;
   [[nodiscard]] float wall(const Face& face, const Box& box, const Footprint& patch) const;
 
+  bool relit_;
   std::vector<Leg> legs_;
   std::vector<RoadDecal> decals_;
   std::vector<Texture> box_textures_;

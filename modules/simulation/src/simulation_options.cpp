@@ -26,6 +26,20 @@ void require_straight_for(Traffic traffic, RouteKind route) {
       "stop-and-go");
 }
 
+/// What tells one lap from the next needs laps; traffic would meet each of them.
+void require_block_for_laps(const SimulationOptions& options) {
+  if (options.route == RouteKind::kBlock) {
+    if (options.traffic == Traffic::kNone) return;
+    throw std::invalid_argument("SimulationOptions.traffic must be none on a block");
+  }
+  if (options.relight) {
+    throw std::invalid_argument("SimulationOptions.relight changes laps: route must be block");
+  }
+  if (options.lane_shift_m != 0.0) {
+    throw std::invalid_argument("SimulationOptions.lane_shift_m shifts laps: route must be block");
+  }
+}
+
 }  // namespace
 
 void SimulationOptions::validate() const {
@@ -57,6 +71,10 @@ void SimulationOptions::validate() const {
   require_within("truck_gap_swing_m", truck_gap_swing_m, 0.0, truck_gap_m - 1.0);
   require_within("bonnet_share", bonnet_share, 0.0, 0.5);
   require_within("rolling_shutter_s", rolling_shutter_s, 0.0, 1.0 / fps);
+  // Two bends need 28 m; beyond the left lane stand vehicles.
+  require_within("block_m", block_m, 40.0, 1000.0);
+  require_within("lane_shift_m", lane_shift_m, 0.0, 3.6);
+  require_block_for_laps(*this);
   require_straight_for(traffic, route);
 }
 

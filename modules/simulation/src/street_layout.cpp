@@ -14,15 +14,21 @@ constexpr double kObstacleClearance = 2.3;  // [m] from the path: half a vehicle
 constexpr double kBuildingDepth = 9.0;      // [m]
 constexpr double kAlleyChance = 0.12;       // between two buildings
 constexpr double kRetryStep = 0.8;          // [m] how finely a free place is looked for
+constexpr std::uint64_t kBuildings = 0x7374726565ULL;  // what keeps random streams apart
+constexpr std::uint64_t kKerbs = 0x6b65726273ULL;      // of streets that are alike
+constexpr std::uint64_t kOtherKerbs = 0x6f74686572ULL;
 
 class StreetBuilder {
  public:
-  StreetBuilder(const Route& route, std::uint64_t seed)
-      : random_(seed ^ 0x7374726565ULL), path_(route.path()) {
+  StreetBuilder(const Route& route, const TownPlan& plan)
+      : random_(plan.seed ^ kBuildings), alike_(plan.alike), path_(route.path()) {
     for (const Leg& leg : route.legs()) {
       for (int side : {-1, 1}) add_buildings(leg, side);
     }
+    const std::uint64_t kerbs = plan.seed ^ (plan.other_vehicles ? kOtherKerbs : kKerbs);
+    if (alike_ || plan.other_vehicles) random_ = RandomNumbers(kerbs);
     for (const Leg& leg : route.legs()) {
+      if (alike_) random_ = RandomNumbers(kerbs);
       for (int side : {-1, 1}) add_obstacles(leg, side);
     }
   }
@@ -32,9 +38,9 @@ class StreetBuilder {
   void add_buildings(const Leg& leg, int side) {
     double x = -kOverrun;
     while (x < leg.length_m + kOverrun) {
-      const double length = random_.uniform(7.0, 15.0);
-      const double setback = side < 0 ? random_.uniform(6.0, 7.8) : random_.uniform(9.2, 11.5);
-      const double height = random_.uniform(4.5, 13.0);
+      const double length = within(7.0, 15.0);
+      const double setback = side < 0 ? within(6.0, 7.8) : within(9.2, 11.5);
+      const double height = within(4.5, 13.0);
       const double y = side * setback;
       const Box box = placed(leg, {x, y}, {x + length, y + side * kBuildingDepth}, height);
       if (!is_free(box, kBuildingClearance)) {
@@ -42,8 +48,13 @@ class StreetBuilder {
         continue;
       }
       boxes_.push_back(box);
-      x += length + (random_.chance(kAlleyChance) ? random_.uniform(2.0, 3.5) : 0.0);
+      x += length + (!alike_ && random_.chance(kAlleyChance) ? random_.uniform(2.0, 3.5) : 0.0);
     }
+  }
+
+  /// Where buildings are alike, the middle.
+  [[nodiscard]] double within(double low, double high) {
+    return alike_ ? 0.5 * (low + high) : random_.uniform(low, high);
   }
 
   void add_obstacles(const Leg& leg, double side) {
@@ -99,14 +110,15 @@ class StreetBuilder {
   }
 
   RandomNumbers random_;
+  bool alike_;
   std::vector<Eigen::Vector2d> path_;
   std::vector<Box> boxes_;
 };
 
 }  // namespace
 
-std::vector<Box> lay_out_street(const Route& route, std::uint64_t seed) {
-  return StreetBuilder(route, seed).take();
+std::vector<Box> lay_out_street(const Route& route, const TownPlan& plan) {
+  return StreetBuilder(route, plan).take();
 }
 
 }  // namespace oneac::simulation

@@ -23,10 +23,17 @@ struct CrossSection {
   static constexpr double kLeftEdge = 5.6;    ///< left edge line
 };
 
+/// From what a town follows.
+struct TownPlan {
+  std::uint64_t seed = 1;
+  bool alike = false;           ///< every building of one size, every street as the first
+  bool other_vehicles = false;  ///< the same buildings, other things at the kerbs
+};
+
 /// Rows of buildings on both sides of every street, running on beyond its ends so that they close
 /// the view across the junctions; parked vehicles, bins and posts at the kerbs. Nothing stands in
 /// the way.
-[[nodiscard]] std::vector<Box> lay_out_street(const Route& route, std::uint64_t seed);
+[[nodiscard]] std::vector<Box> lay_out_street(const Route& route, const TownPlan& plan);
 
 /// Houses that stand at least 110 m from the route, and a lamp post now and then.
 [[nodiscard]] std::vector<Box> lay_out_open_land(const Route& route, std::uint64_t seed);

@@ -51,9 +51,9 @@ std::vector<Box> with_traffic(std::vector<Box> boxes, const std::vector<MovingVe
   return boxes;
 }
 
-std::vector<Box> standing_boxes(const Route& route, const SimulationOptions& options) {
-  return options.scenery == Scenery::kFar ? lay_out_open_land(route, options.seed)
-                                          : lay_out_street(route, options.seed);
+std::vector<Box> standing_boxes(const Route& route, const SimulationOptions& options, bool relit) {
+  if (options.scenery == Scenery::kFar) return lay_out_open_land(route, options.seed);
+  return lay_out_street(route, {options.seed, options.alike, relit});
 }
 
 static_assert(FaceRasteriser::kPerSide == 2, "PixelPainter reads 2×2 samples per pixel");
@@ -66,12 +66,13 @@ bool contains(const Face& face, const Eigen::Vector3d& X) {
 }  // namespace
 
 StreetRenderer::StreetRenderer(const PinholeCamera& camera, const Route& route,
-                               const SimulationOptions& options, std::vector<MovingVehicle> traffic)
+                               const SimulationOptions& options, std::vector<MovingVehicle> traffic,
+                               bool relit)
     : camera_(camera),
       view_range_m_(options.scenery == Scenery::kFar ? kViewInTheOpen_m : kViewInTown_m),
       traffic_(std::move(traffic)),
-      boxes_(with_traffic(standing_boxes(route, options), traffic_)),
-      shader_(route, boxes_, options) {}
+      boxes_(with_traffic(standing_boxes(route, options, relit), traffic_)),
+      shader_(route, boxes_, options, relit) {}
 
 std::vector<Box> StreetRenderer::boxes_at(double time_s) const {
   std::vector<Box> boxes = boxes_;

@@ -19,8 +19,9 @@ namespace oneac::simulation {
 /// pixel shows.
 class StreetRenderer {
  public:
+  /// @param relit  the same town in another light and with other parked vehicles
   StreetRenderer(const PinholeCamera& camera, const Route& route, const SimulationOptions& options,
-                 std::vector<MovingVehicle> traffic);
+                 std::vector<MovingVehicle> traffic, bool relit);
 
   /// Grey levels at a time of the drive [s], row by row.
   [[nodiscard]] std::vector<float> render(const Eigen::Isometry3d& T_world_cam,

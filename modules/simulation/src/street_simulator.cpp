@@ -78,12 +78,17 @@ struct StreetSimulator::Impl {
         route(options, duration(options)),
         suspension(options, route, duration(options) + options.rolling_shutter_s),
         T_world_town(slope_of(options)),
-        renderer(camera, route, options, simulation::traffic_of(options, route, duration(options))),
-        effects(options) {}
+        renderer(camera, route, options, simulation::traffic_of(options, route, duration(options)),
+                 false),
+        effects(options) {
+    if (options.relight)
+      relit.emplace(camera, route, options, std::vector<simulation::MovingVehicle>{}, true);
+  }
 
   [[nodiscard]] SimulatedState state_at(double time_s) const;
   [[nodiscard]] GreyImage image(const SimulatedFrame& frame, int side) const;
   [[nodiscard]] std::vector<float> rendered(double time_s, int side) const;
+  [[nodiscard]] const StreetRenderer& renderer_at(double time_s) const;
   [[nodiscard]] SimulatedGps gps_at(double time_s, RandomNumbers& random) const;
   [[nodiscard]] SimulatedImu imu_at(double time_s, RandomNumbers& random) const;
 
@@ -95,6 +100,7 @@ struct StreetSimulator::Impl {
   Eigen::Isometry3d
       T_world_town;  ///< the town is built on the plane Z = 0 and then put on its slope
   StreetRenderer renderer;
+  std::optional<StreetRenderer> relit;  ///< of every second lap
   simulation::PictureEffects effects;
 };
 
@@ -111,14 +117,19 @@ SimulatedState StreetSimulator::Impl::state_at(double time_s) const {
   return state;
 }
 
+const StreetRenderer& StreetSimulator::Impl::renderer_at(double time_s) const {
+  return relit && route.lap_at(time_s) % 2 == 1 ? *relit : renderer;
+}
+
 std::vector<float> StreetSimulator::Impl::rendered(double time_s, int side) const {
   const Eigen::Translation3d to_the_right(side * options.baseline_m, 0.0, 0.0);
   const auto T_town_cam = [this, &to_the_right, side](double t) -> Eigen::Isometry3d {
     const Eigen::Isometry3d T_world_left = state_at(t).T_world_cam;
     return T_world_town.inverse() * (side == 0 ? T_world_left : T_world_left * to_the_right);
   };
-  if (options.rolling_shutter_s == 0.0) return renderer.render(T_town_cam(time_s), time_s);
-  return renderer.render_rolling(T_town_cam, time_s, options.rolling_shutter_s);
+  const StreetRenderer& town = renderer_at(time_s);
+  if (options.rolling_shutter_s == 0.0) return town.render(T_town_cam(time_s), time_s);
+  return town.render_rolling(T_town_cam, time_s, options.rolling_shutter_s);
 }
 
 /// @param side  0: left, 1: right

@@ -71,7 +71,7 @@ TEST(StreetLayout, KeepsTheLaneFree) {
     SimulationOptions options;
     options.seed = seed;
     const Route route(options, kDuration);
-    const std::vector<Box> boxes = lay_out_street(route, seed);
+    const std::vector<Box> boxes = lay_out_street(route, {seed});
     EXPECT_GT(boxes.size(), 40U);
     double t = 0.0;
     while (t < kDuration) {
@@ -88,7 +88,7 @@ TEST(StreetLayout, KeepsTheLaneFree) {
 TEST(StreetLayout, HasAWallAcrossTheEndOfTheFirstStreet) {
   const Route route(SimulationOptions{}, kDuration);
   const Leg& leg = route.legs().front();
-  const std::vector<Box> boxes = lay_out_street(route, 1);
+  const std::vector<Box> boxes = lay_out_street(route, {1});
   const bool across = std::any_of(boxes.begin(), boxes.end(), [&](const Box& box) {
     return box.kind == Box::Kind::kBuilding && box.low.x() > leg.length_m &&
            box.low.x() < leg.length_m + 40.0 && box.low.y() < 6.0 && box.high.y() > -6.0;

@@ -10,6 +10,7 @@ enum class RouteKind {
   kStraight,    ///< one road without bend, a stop after 30 m
   kStopAndGo,   ///< the same, with a stop of 1 to 3.5 s every 10 to 22 m
   kRoundabout,  ///< streets that meet in roundabouts, taken with 120 to 210 degrees of circle
+  kBlock,       ///< round a square block to the left, lap after lap, without a stop
 };
 /// What stands around the road.
 enum class Scenery {
@@ -62,9 +63,14 @@ struct SimulationOptions {
   double suspension_roll_deg = 0.1;  ///< [deg] std. deviation at full speed, on top of cornering
 
   RouteKind route = RouteKind::kStreet;
+  double block_m = 120.0;     ///< [m] side of the block; a block of a grid of streets
+  double lane_shift_m = 0.0;  ///< [m] every second lap of the block drives so far to the left
+  bool relight = false;       ///< every second lap: the sun elsewhere, other parked vehicles
+  bool alike = false;  ///< every facade the same, every street laid out as the first: places that
+                       ///< nothing tells apart
   Scenery scenery = Scenery::kTown;
   RoadSurface road = RoadSurface::kTextured;
-  Traffic traffic = Traffic::kNone;  ///< all but crossing and buses need a route without bends
+  Traffic traffic = Traffic::kNone;  ///< most need a route without bends; a block has none
   double truck_gap_m = 7.0;          ///< [m] from the camera to the truck; close city traffic
   double truck_gap_swing_m = 0.0;    ///< [m] the gap swings by so much in 12 s; 0: constant
 
