@@ -15,7 +15,7 @@ namespace oneac {
 namespace {
 
 constexpr std::size_t kFewestSpans = 4;
-constexpr double kFewestBends = 2.0;  // as many as spans of one size that share the turn
+constexpr double kFewestBends = 1.5;  // two, the smaller of which is half the larger
 constexpr double kLeastTurn = 0.35;   // [rad] root of the squares of all: 20°
 constexpr double kCauchy = 2.0;       // [σ]
 constexpr int kIterations = 10;

@@ -36,7 +36,7 @@ struct TurnMeasurement {
 /// ψ_sensor = ψ_images · f_in_use / f + bias · duration.
 /// Least squares over spans with Cauchy's weights; σ is the larger of that of the residuals'
 /// scatter and of the heteroscedasticity-robust one [White 1980], with the sensor's scale.
-/// @return empty where fewer than two bends or four spans confirm each other
+/// @return empty where not two bends and four spans confirm each other
 /// @throws std::invalid_argument as TurnSensor::validate
 [[nodiscard]] std::optional<TurnMeasurement> measure_focal_by_turns(
     const std::vector<TurnSpan>& spans, const TurnSensor& sensor);
