@@ -5,6 +5,7 @@
 #include "terminal/key_flags.h"
 
 #include "oneac/base/atomic_file.h"
+#include "oneac/base/error.h"
 
 #include <CLI/CLI.hpp>
 
@@ -12,10 +13,19 @@
 #include <iostream>
 #include <memory>
 #include <string>
+#include <system_error>
 #include <vector>
 
 namespace oneac::app {
 namespace {
+
+/// The page of a run has the same name, and its results belong together.
+void require_no_run(const std::filesystem::path& folder) {
+  std::error_code ignored;
+  if (!std::filesystem::exists(folder / "summary.json", ignored)) return;
+  throw InputError(folder.string(), "it holds the results of a run, whose report.html would go",
+                   "name a file in another folder with -o");
+}
 
 struct CalibrateFlags {
   CalibrateOptions options;
@@ -32,6 +42,7 @@ void run(CalibrateFlags& flags) {
   const std::filesystem::path file(options.output);
   const std::filesystem::path folder = file.has_parent_path() ? file.parent_path() : ".";
   require_writable_folder(folder.string());
+  require_no_run(folder);
   catch_interrupts();
   const Calibration calibration = calibrate_camera(options);
   fail_if_empty(calibration.drive, options.run.log);

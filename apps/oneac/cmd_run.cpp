@@ -37,9 +37,16 @@ struct RunFlags {
   bool gui = false;
 };
 
+bool learns_camera(const RunOptions& options) {
+  return options.front_end.self_calibration.refine != "off";
+}
+
 void write_all(const DriveRecord& record, RunOptions& options, double wall_seconds) {
   const std::filesystem::path folder(options.output);
   write_drive(record, folder);
+  const std::string camera =
+      learns_camera(options) ? used_camera_ini(record, options.log) : std::string();
+  if (!camera.empty()) write_file_atomically(folder / "camera.ini", camera);
   write_file_atomically(folder / "params.yaml", options.result_parameters());
   const RunEvaluation evaluation = evaluate_record(record, options);
   const std::string summary = summary_json(record, evaluation, options, wall_seconds);
@@ -51,6 +58,7 @@ void write_all(const DriveRecord& record, RunOptions& options, double wall_secon
          "relative_poses.csv, covariance.csv, tilt.csv, timings.csv, summary.json, report.html, "
          "params.yaml"
       << (record.keyframes.empty() ? "" : ", keyframes.tum, graph.g2o, map.simplemap, points.ply")
+      << (camera.empty() ? "" : ", camera.ini")
       << (record.car_mask.empty() ? "\n" : ", mask.png\n");
 }
 
@@ -75,6 +83,7 @@ void run(RunFlags& flags) {
   if (options.output.empty()) throw InputError("run", "no output folder given", "add -o DIR");
   require_writable_folder(options.output);
   require_log(options.log);
+  if (learns_camera(options)) require_no_other_camera(options.output);
   clear_of_earlier_run(options.output);
   catch_interrupts();
   const auto gui = flags.gui ? std::make_unique<RunGui>() : nullptr;

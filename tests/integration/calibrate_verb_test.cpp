@@ -71,6 +71,74 @@ TEST_F(CalibrateVerb, SaysThatAStraightRoadCannotTell) {
   EXPECT_EQ(value_of(text_of(folder("camera.ini")), "fx"), 250.0);
 }
 
+TEST_F(CalibrateVerb, GyroscopeAndCourseAreSetAgainstTheTurnsByImages) {
+  const std::string log = simulate({"--frames", "180"});
+  const ProgramResult result =
+      run_program({ONEAC_PROGRAM, "calibrate", log, "-o", folder("camera.ini"), "--passes", "1"});
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  const std::string said = "gyroscope against the turns by images: f ";
+  const auto at = result.out.find(said);
+  ASSERT_NE(at, std::string::npos) << result.out;
+  EXPECT_NEAR(std::stod(result.out.substr(at + said.size())), 0.0, 0.3) << result.out;
+  EXPECT_NE(result.out.find("GPS course against"), std::string::npos) << result.out;
+  EXPECT_NE(result.out.find("bends, gyroscope, GPS course)"), std::string::npos) << result.out;
+}
+
+TEST_F(CalibrateVerb, DoesNotOverwriteTheReportOfARun) {
+  const std::string log = simulate({"--frames", "8"});
+  ASSERT_EQ(run_program({ONEAC_PROGRAM, "run", log, "-o", folder("out")}).exit_code, 0);
+  const std::string before = text_of(folder("out") + "/report.html");
+  const ProgramResult result =
+      run_program({ONEAC_PROGRAM, "calibrate", log, "-o", folder("out") + "/camera.ini"});
+  EXPECT_EQ(result.exit_code, 2);
+  EXPECT_NE(result.err.find("report.html"), std::string::npos) << result.err;
+  EXPECT_EQ(text_of(folder("out") + "/report.html"), before);
+}
+
+TEST_F(CalibrateVerb, RunThatLearnsWritesTheCameraItUsedAndTouchesNoOther) {
+  const std::string log = simulate({"--frames", "8"});
+  const std::string out = folder("out"), ini = out + "/camera.ini";
+  std::filesystem::create_directory(out);
+  const std::string own =
+      "[CAMERA_PARAMS]\nresolution = [320 240]\ncx = 159.5\ncy = 119.5\n"
+      "fx = 250\nfy = 250\ndist = [0 0 0 0 0]\n";
+  std::ofstream(ini) << own;
+  const std::vector<std::string> plain = {ONEAC_PROGRAM, "run", log, "-o", out};
+  ASSERT_EQ(run_program(plain).exit_code, 0);
+  EXPECT_EQ(text_of(ini), own);
+  std::vector<std::string> learning = plain;
+  learning.insert(learning.end(), {"--set", "front_end.calibration.refine=focal"});
+  const ProgramResult refused = run_program(learning);
+  EXPECT_EQ(refused.exit_code, 2);
+  EXPECT_NE(refused.err.find("camera.ini"), std::string::npos) << refused.err;
+  EXPECT_EQ(text_of(ini), own);
+  std::filesystem::remove(ini);
+  ASSERT_EQ(run_program(learning).exit_code, 0);
+  EXPECT_EQ(value_of(text_of(ini), "fx"), 250.0);
+  EXPECT_EQ(text_of(ini).rfind("// used by oneac run", 0), 0U) << text_of(ini);
+  ASSERT_EQ(run_program(plain).exit_code, 0);
+  EXPECT_FALSE(std::filesystem::exists(ini));
+}
+
+TEST_F(CalibrateVerb, CameraThatARunHasLearnedIsReadBackAsTheSame) {
+  const std::string log = simulate({"--frames", "110"});
+  const std::string wrong = folder("wrong.ini");
+  std::ofstream(wrong) << "[CAMERA_PARAMS]\nresolution = [320 240]\ncx = 159.5\ncy = 119.5\n"
+                          "fx = 290\nfy = 290\ndist = [0 0 0 0 0]\n";
+  const std::string out = folder("out");
+  ASSERT_EQ(run_program({ONEAC_PROGRAM, "run", log, "-o", out, "--calibration", wrong, "--set",
+                         "front_end.calibration.refine=focal", "--set",
+                         "front_end.calibration.focal_sigma=0.2"})
+                .exit_code,
+            0);
+  const auto learned = nlohmann::json::parse(text_of(out + "/summary.json"))["camera"];
+  ASSERT_EQ(learned["self_calibration"]["used"], "learned");
+  const std::string ini = text_of(out + "/camera.ini");
+  EXPECT_NEAR(value_of(ini, "fx"), learned["self_calibration"]["focal_used_last_px"].get<double>(),
+              1e-9);
+  EXPECT_NEAR(value_of(ini, "fx"), 250.0, 6.0) << ini;
+}
+
 TEST_F(CalibrateVerb, RefusesAFieldOfViewThatNoCameraHas) {
   const ProgramResult result = run_program(
       {ONEAC_PROGRAM, "calibrate", "a.rawlog", "-o", folder("camera.ini"), "--fov-deg", "200"});

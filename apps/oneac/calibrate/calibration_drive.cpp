@@ -110,14 +110,18 @@ void measure(const Pass& pass, const PinholeCamera& tracked_with, double min_tur
     calibration.bends.push_back(*measured);
     calibration.windows.push_back(window);
   }
+  calibration.turns = turn_evidence(pass.drive);
+  for (const TurnEvidence& turn : calibration.turns) {
+    belief.add_focal(start[kFocal] + turn.measured.log_focal, turn.measured.sigma);
+  }
   calibration.estimate = belief.estimate();
 }
 
 }  // namespace
 
 bool Calibration::knows_focal() const {
-  return bends.size() >= IntrinsicsBelief::kFewestWindows &&
-         estimate.sigma(kFocal) < 0.5 * prior.focal;
+  const bool confirmed = bends.size() >= IntrinsicsBelief::kFewestWindows || !turns.empty();
+  return confirmed && estimate.sigma(kFocal) < 0.5 * prior.focal;
 }
 
 void CalibrateOptions::validate() {

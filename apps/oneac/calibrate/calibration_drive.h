@@ -1,5 +1,6 @@
 #pragma once
 
+#include "calibrate/turn_reference.h"
 #include "run/drive_record.h"
 #include "run/run_options.h"
 
@@ -28,11 +29,12 @@ struct Calibration {
   IntrinsicsEstimate estimate;
   std::vector<IntrinsicsMeasurement> bends;  ///< of the last pass
   std::vector<CalibrationWindow> windows;    ///< the same
+  std::vector<TurnEvidence> turns;           ///< by other sensors, of the last pass
   double largest_turn = 0.0;                 ///< [rad] of any window
   int passes = 0;
   DriveRecord drive;  ///< of the last pass
 
-  /// Any bend was measured, and the focal length is surer than the guess.
+  /// Bends or another sensor confirm each other, and the focal length is surer than the guess.
   [[nodiscard]] bool knows_focal() const;
 };
 

@@ -135,6 +135,13 @@ Table bends_table(const Calibration& c) {
   return table;
 }
 
+std::string text_of(const TurnEvidence& turn, double focal_px) {
+  const TurnMeasurement& m = turn.measured;
+  return turn.sensor + " against the turns by images: f " +
+         fixed_text(100.0 * std::expm1(m.log_focal), 2) + " ± " + fixed_text(100.0 * m.sigma, 2) +
+         " % from the " + fixed_text(focal_px, 1) + " px of the last pass";
+}
+
 std::string mount_line(const Calibration& c) {
   const TiltBelief& tilt = c.drive.tilt_belief;
   return "camera looks " + fixed_text(tilt.tilt.pitch_up / kDegree, 2) + " ± " +
@@ -143,22 +150,29 @@ std::string mount_line(const Calibration& c) {
          fixed_text(tilt.roll_sigma / kDegree, 2) + " deg to the right";
 }
 
+/// One per sensor that told something.
+std::vector<std::string> turn_lines(const Calibration& c) {
+  std::vector<std::string> lines;
+  for (const TurnEvidence& turn : c.turns) lines.push_back(text_of(turn, c.drive.raw_camera.fx));
+  return lines;
+}
+
 }  // namespace
 
 std::string verdict_of(const Calibration& c) {
-  if (c.bends.empty()) {
+  if (c.bends.empty() && c.turns.empty()) {
     return "this drive cannot tell the focal length: it turns by " +
            fixed_text(c.largest_turn / kDegree, 1) +
            " degrees within twelve keyframes at most; drive some bends of 30 degrees and more, "
            "near houses or parked cars";
   }
-  if (c.bends.size() < IntrinsicsBelief::kFewestWindows) {
+  if (c.bends.size() < IntrinsicsBelief::kFewestWindows && c.turns.empty()) {
     return "this drive has one bend only and nothing confirms what it says of the focal length; "
            "drive some bends of 30 degrees and more, near houses or parked cars";
   }
   const double sigma = c.estimate.sigma(kFocal);
-  const std::string bends =
-      std::to_string(c.bends.size()) + (c.bends.size() == 1 ? " bend" : " bends");
+  std::string bends = std::to_string(c.bends.size()) + (c.bends.size() == 1 ? " bend" : " bends");
+  for (const TurnEvidence& turn : c.turns) bends += ", " + turn.sensor;
   if (!c.knows_focal()) {
     return "this drive hardly tells the focal length (" + percent(sigma) + " by " + bends +
            "); drive some bends of 30 degrees and more, near houses or parked cars";
@@ -171,6 +185,7 @@ std::string camera_ini(const Calibration& c, const std::string& log) {
   std::vector<std::string> remarks = {"made by oneac calibrate (oneac " + version() + ") of " + log,
                                       verdict_of(c)};
   for (const Line& line : lines_of(c)) remarks.push_back(text_of(line));
+  for (const std::string& line : turn_lines(c)) remarks.push_back(line);
   remarks.push_back(mount_line(c));
   return calibration_text(c.estimate.camera, remarks);
 }
@@ -178,6 +193,7 @@ std::string camera_ini(const Calibration& c, const std::string& log) {
 std::string calibration_summary(const Calibration& c) {
   std::string text;
   for (const Line& line : lines_of(c)) text += text_of(line) + "\n";
+  for (const std::string& line : turn_lines(c)) text += line + "\n";
   return text + mount_line(c) + "\n" + verdict_of(c) + "\n";
 }
 
@@ -189,6 +205,7 @@ std::string calibration_html(const Calibration& c, const std::string& log) {
               {"bends", std::to_string(c.bends.size())},
               {"passes", std::to_string(c.passes)}});
   page.table(unknowns_table(c));
+  for (const std::string& line : turn_lines(c)) page.paragraph(line);
   page.paragraph(mount_line(c));
   if (!c.bends.empty()) page.table(bends_table(c));
   add_regions(page, c);

@@ -3,15 +3,20 @@
 #include "oneac/base/atomic_file.h"
 #include "oneac/base/error.h"
 #include "oneac/base/number_text.h"
+#include "oneac/base/version.h"
 #include "oneac/frontend/map_formats.h"
 #include "oneac/geometry/angles.h"
+#include "oneac/geometry/lens.h"
+#include "oneac/rawlog/calibration_writer.h"
 #include "oneac/report/overlay.h"
 #include "oneac/report/table.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <fstream>
 #include <stdexcept>
+#include <string_view>
 #include <system_error>
 #include <utility>
 
@@ -127,8 +132,37 @@ std::string about_faulty_answers(const DriveRecord& record) {
          ")";
 }
 
+constexpr const char* kCameraFile = "camera.ini";
+// What the first line of it begins with: others write files of this name.
+constexpr const char* kOfARun = "// used by oneac run";
+
+bool is_camera_of_a_run(const std::filesystem::path& file) {
+  std::ifstream in(file);
+  std::string line;
+  return std::getline(in, line) && line.rfind(kOfARun, 0) == 0;
+}
+
+/// Not what a run has written.
+bool belongs_to_others(const char* name, const std::filesystem::path& file) {
+  return name == std::string_view(kCameraFile) && !is_camera_of_a_run(file);
+}
+
+/// The raw image's camera whose undistorted images have a focal length `factor` times as long:
+/// distortion is a function of the angle to the axis, which becomes as much smaller.
+PinholeCamera with_longer_focal(PinholeCamera camera, double factor) {
+  camera.fx *= factor;
+  camera.fy *= factor;
+  const double squared = factor * factor;
+  camera.distortion[0] *= squared;
+  camera.distortion[1] *= squared * squared;
+  camera.distortion[2] *= factor;
+  camera.distortion[3] *= factor;
+  camera.distortion[4] *= squared * squared * squared;
+  return camera;
+}
+
 /// Every name that a run may write.
-constexpr std::array<const char*, 15> kResults{"trajectory_camera.kitti",
+constexpr std::array<const char*, 16> kResults{"trajectory_camera.kitti",
                                                "trajectory_camera.tum",
                                                "trajectory_vehicle.tum",
                                                "relative_poses.csv",
@@ -140,6 +174,7 @@ constexpr std::array<const char*, 15> kResults{"trajectory_camera.kitti",
                                                "map.simplemap",
                                                "points.ply",
                                                "mask.png",
+                                               kCameraFile,
                                                "params.yaml",
                                                "summary.json",
                                                "report.html"};
@@ -161,8 +196,30 @@ void clear_of_earlier_run(const std::filesystem::path& folder) {
   for (const char* name : kResults) {
     const std::filesystem::path file = replaced_file(folder / name);
     std::error_code ignored;
+    if (belongs_to_others(name, file)) continue;
     if (std::filesystem::is_regular_file(file, ignored)) std::filesystem::remove(file, ignored);
   }
+}
+
+void require_no_other_camera(const std::filesystem::path& folder) {
+  const std::filesystem::path file = folder / kCameraFile;
+  std::error_code ignored;
+  if (!std::filesystem::exists(file, ignored) || is_camera_of_a_run(file)) return;
+  throw InputError(file.string(), "no run has written it, and this one would overwrite it",
+                   "name another folder with -o");
+}
+
+std::string used_camera_ini(const DriveRecord& record, const std::string& log) {
+  if (!is_five_term_lens(record.raw_camera)) return "";
+  const CameraBelief& belief = record.camera_belief;
+  const double factor = belief.used.focal_px() / belief.given.focal_px();
+  const bool learned = belief.used.fx != belief.given.fx;
+  return calibration_text(
+      with_longer_focal(record.raw_camera, factor),
+      {"used by oneac run (oneac " + version() + ") at the end of " + log,
+       learned ? "focal length learned by " + std::to_string(belief.bends) + " bends, good to " +
+                     fixed_text(100.0 * belief.focal_sigma, 1) + " % (1 sigma), the rest as given"
+               : std::string("as given: the drive does not say otherwise")});
 }
 
 void write_drive(const DriveRecord& record, const std::filesystem::path& folder) {

@@ -1,5 +1,7 @@
 #include "oneac/calibration/intrinsics_belief.h"
 
+#include "oneac/base/require.h"
+
 #include <Eigen/Cholesky>
 
 #include <algorithm>
@@ -24,17 +26,25 @@ double student_factor(std::size_t windows) {
   return 1.0 + 1.06 / static_cast<double>(windows - 1);
 }
 
-/// Λ⁻¹ (Σ g gᵀ) Λ⁻¹ · W / (W − 1); zero for less than two windows.
-IntrinsicsMatrix scatter_of(const std::vector<IntrinsicsMeasurement>& measured,
+/// Λ⁻¹ (Σ g gᵀ) Λ⁻¹ · W / (W − 1); zero for less than two.
+IntrinsicsMatrix scatter_of(const std::vector<IntrinsicsMeasurement>& told,
                             const IntrinsicsMatrix& inverse, const IntrinsicsVector& change) {
-  if (measured.size() < 2) return IntrinsicsMatrix::Zero();
+  if (told.size() < 2) return IntrinsicsMatrix::Zero();
   IntrinsicsMatrix sum = IntrinsicsMatrix::Zero();
-  for (const IntrinsicsMeasurement& m : measured) {
+  for (const IntrinsicsMeasurement& m : told) {
     const IntrinsicsVector score = m.pull - m.information * change;
     sum += score * score.transpose();
   }
-  const double windows = static_cast<double>(measured.size());
-  return inverse * sum * inverse * (windows / (windows - 1.0));
+  const double count = static_cast<double>(told.size());
+  return inverse * sum * inverse * (count / (count - 1.0));
+}
+
+/// A window with what its sightings are worth, since their errors are not independent.
+IntrinsicsMeasurement weighed(IntrinsicsMeasurement window) {
+  constexpr double kShare = 1.0 / (kCorrelation * kCorrelation);
+  window.information *= kShare;
+  window.pull *= kShare;
+  return window;
 }
 
 }  // namespace
@@ -53,16 +63,35 @@ void IntrinsicsBelief::add(const IntrinsicsMeasurement& measured) {
   measured_.push_back(measured);
 }
 
+void IntrinsicsBelief::add_focal(double log_focal, double sigma) {
+  require(std::isfinite(log_focal), "add_focal: log_focal", log_focal, "finite");
+  require(sigma > 0.0 && std::isfinite(sigma), "add_focal: sigma", sigma, "above 0");
+  IntrinsicsMeasurement told;
+  told.change.setZero();
+  told.change[kFocal] = log_focal;
+  told.information.setZero();
+  told.information(kFocal, kFocal) = 1.0 / (sigma * sigma);
+  told.pull = told.information * told.change;
+  told_.push_back(told);
+}
+
+/// All that counts. What one window says nothing confirms: it may be full of traffic.
+std::vector<IntrinsicsMeasurement> IntrinsicsBelief::counted() const {
+  std::vector<IntrinsicsMeasurement> counted;
+  if (measured_.size() >= kFewestWindows) {
+    for (const IntrinsicsMeasurement& window : measured_) counted.push_back(weighed(window));
+  }
+  counted.insert(counted.end(), told_.begin(), told_.end());
+  return counted;
+}
+
 IntrinsicsEstimate IntrinsicsBelief::estimate() const {
-  constexpr double kShare = 1.0 / (kCorrelation * kCorrelation);
-  // What one window says nothing confirms: it may be full of traffic.
-  const bool confirmed = measured_.size() >= kFewestWindows;
+  const std::vector<IntrinsicsMeasurement> told = counted();
   IntrinsicsMatrix information = IntrinsicsMatrix::Zero();
   IntrinsicsVector pull = IntrinsicsVector::Zero();
-  for (const IntrinsicsMeasurement& m : measured_) {
-    if (!confirmed) break;
-    information += kShare * m.information;
-    pull += kShare * m.pull;
+  for (const IntrinsicsMeasurement& m : told) {
+    information += m.information;
+    pull += m.pull;
   }
   IntrinsicsEstimate result;
   result.windows = measured_.size();
@@ -76,10 +105,9 @@ IntrinsicsEstimate IntrinsicsBelief::estimate() const {
                            .diagonal()
                            .cwiseMax(0.0)
                            .cwiseSqrt();
-  if (!confirmed) return result;
-  const IntrinsicsMatrix scatter =
-      scatter_of(measured_, result.covariance, result.change) * (kShare * kShare);
-  const double few = student_factor(measured_.size());
+  if (told.size() < 2) return result;
+  const IntrinsicsMatrix scatter = scatter_of(told, result.covariance, result.change);
+  const double few = student_factor(told.size());
   for (int i = 0; i < kIntrinsics; ++i) {
     const double more =
         std::sqrt(std::max(few * few * scatter(i, i) / result.covariance(i, i), 1.0));

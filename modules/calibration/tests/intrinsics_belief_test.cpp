@@ -54,5 +54,26 @@ TEST(IntrinsicsBelief, WindowsThatContradictEachOtherMakeItLessSure) {
   EXPECT_GT(belief.estimate().sigma(kFocal), 0.01);
 }
 
+TEST(IntrinsicsBelief, WhatAnotherSensorSaysCountsAloneAndMovesNothingButTheFocalLength) {
+  IntrinsicsBelief belief(true_camera(), {0.1});
+  belief.add(focal_measurement(0.15, 0.005));
+  belief.add_focal(0.04, 0.003);
+  const IntrinsicsEstimate estimate = belief.estimate();
+  EXPECT_NEAR(estimate.change[kFocal], 0.04, 1e-4);
+  EXPECT_NEAR(estimate.sigma(kFocal), 0.003, 1e-4);
+  EXPECT_EQ(estimate.camera.cx, true_camera().cx);
+  EXPECT_NEAR(estimate.sigma(kK1), IntrinsicsPrior{}.k1, 1e-12);
+}
+
+TEST(IntrinsicsBelief, ASensorThatContradictsTheBendsMakesItLessSure) {
+  IntrinsicsBelief agrees(true_camera(), {0.1}), differs(true_camera(), {0.1});
+  for (IntrinsicsBelief* belief : {&agrees, &differs}) {
+    for (int i = 0; i < 4; ++i) belief->add(focal_measurement(0.02, 0.001));
+  }
+  agrees.add_focal(0.02, 0.002);
+  differs.add_focal(0.05, 0.002);
+  EXPECT_GT(differs.estimate().sigma(kFocal), 3.0 * agrees.estimate().sigma(kFocal));
+}
+
 }  // namespace
 }  // namespace oneac

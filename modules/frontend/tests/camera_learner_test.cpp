@@ -71,6 +71,16 @@ TEST(CameraLearner, UsesWhatItLearnedWhenAskedTo) {
   EXPECT_GE(learner.belief().history.size(), 3U);
 }
 
+TEST(CameraLearner, KeepsAGivenFocalLengthThatBendsDoNotContradict) {
+  SelfCalibrationOptions options;
+  options.refine = "focal";
+  CameraLearner learner(options);
+  learner.start(true_camera());
+  drive_on(learner, 0.03, 1.0);
+  EXPECT_NE(learner.belief().focal_px, true_camera().fx);
+  EXPECT_EQ(learner.used().fx, true_camera().fx);
+}
+
 TEST(CameraLearner, LooksAtNothingWhenSwitchedOff) {
   SelfCalibrationOptions options;
   options.check = false;

@@ -14,6 +14,8 @@ constexpr std::size_t kMostTracks = 200;
 // [σ] and [-] of ln f: lengths by the road are wrong as the focal length is, and three per cent are
 // what is taken for granted of it. One bend, which a crossing bus may fill, accuses nobody.
 constexpr double kSure = 3.0, kTolerated = 0.03;
+// [σ] from which what bends say is used: of good calibrations they contradict one in twenty.
+constexpr double kDoubtful = 2.0;
 constexpr std::size_t kFewestBends = 2;
 
 }  // namespace
@@ -27,6 +29,7 @@ void CameraLearner::start(const PinholeCamera& given) {
   belief_.drive_sigma = intrinsics_->estimate().drive_sigma[kFocal];
   static_cast<void>(cutter_.finish());
   change_.setZero();
+  contradicted_ = false;
 }
 
 IntrinsicsPrior CameraLearner::prior() const {
@@ -44,6 +47,9 @@ bool CameraLearner::follow(const NewestKeyframe& keyframe, std::size_t index, do
   }
   const auto window = cutter_.add(std::move(view));
   if (!window || !measure(*window) || options_.refine == "off") return false;
+  // A camera that was calibrated well is better than a bend's half per cent.
+  contradicted_ = contradicted_ || contradicts(kDoubtful);
+  if (!contradicted_) return false;
   IntrinsicsVector focal = IntrinsicsVector::Zero();
   focal[kFocal] = change_[kFocal];
   belief_.used = changed(belief_.given, focal);
@@ -71,10 +77,12 @@ bool CameraLearner::measure(const CalibrationWindow& window) {
   return true;
 }
 
+bool CameraLearner::contradicts(double sigmas) const {
+  return belief_.bends >= kFewestBends && std::abs(change_[kFocal]) >= sigmas * belief_.focal_sigma;
+}
+
 std::optional<std::string> CameraLearner::fault() const {
-  const double off = std::abs(change_[kFocal]);
-  if (belief_.bends < kFewestBends || off < kTolerated) return std::nullopt;
-  if (off < kSure * belief_.focal_sigma) return std::nullopt;
+  if (!contradicts(kSure) || std::abs(change_[kFocal]) < kTolerated) return std::nullopt;
   return "the bends of this drive say a focal length of " + fixed_text(belief_.focal_px, 0) +
          " px (to " + fixed_text(100.0 * belief_.focal_sigma, 1) +
          " %) where the calibration has " + fixed_text(belief_.given.focal_px(), 0) +

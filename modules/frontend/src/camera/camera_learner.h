@@ -33,14 +33,17 @@ class CameraLearner {
   /// @return whether something was learned
   bool measure(const CalibrationWindow& window);
   [[nodiscard]] IntrinsicsPrior prior() const;
+  /// Bends confirm each other, and the given focal length is so many of their σ away.
+  [[nodiscard]] bool contradicts(double sigmas) const;
 
   SelfCalibrationOptions options_;
   std::optional<IntrinsicsBelief> intrinsics_;
   WindowCutter cutter_;
   CameraBelief belief_;
   IntrinsicsVector change_ = IntrinsicsVector::Zero();
-  std::size_t index_ = 0;  ///< image of the newest keyframe
-  double time_s_ = 0.0;    ///< of it [s]
+  bool contradicted_ = false;  ///< once: from then on the camera follows what is learned
+  std::size_t index_ = 0;      ///< image of the newest keyframe
+  double time_s_ = 0.0;        ///< of it [s]
 };
 
 }  // namespace oneac

@@ -26,6 +26,8 @@ struct IntrinsicsEstimate {
 /// (sandwich) of what the windows say against each other, Λ⁻¹ (Σ g gᵀ) Λ⁻¹ · W / (W − 1) with the
 /// scores g of W windows [Liang and Zeger 1986], which also knows what the model leaves out, times
 /// Student's factor for few of them. One window alone moves nothing: its scatter is not known.
+/// What another sensor says of the focal length comes beside them, with its own σ, and counts in
+/// the scatter.
 class IntrinsicsBelief {
  public:
   static constexpr std::size_t kFewestWindows = 2;
@@ -33,12 +35,20 @@ class IntrinsicsBelief {
   IntrinsicsBelief(const PinholeCamera& from, const IntrinsicsPrior& prior);
 
   void add(const IntrinsicsMeasurement& measured);
+  /// The focal length by turns that another sensor measured, independent of the windows.
+  /// @param log_focal  ln(f / f₀)
+  /// @param sigma      1σ of it, all that is known to be wrong included
+  /// @throws std::invalid_argument unless both are finite and sigma is above 0
+  void add_focal(double log_focal, double sigma);
   [[nodiscard]] IntrinsicsEstimate estimate() const;
 
  private:
+  [[nodiscard]] std::vector<IntrinsicsMeasurement> counted() const;
+
   PinholeCamera from_;
   IntrinsicsMatrix prior_;
   std::vector<IntrinsicsMeasurement> measured_;
+  std::vector<IntrinsicsMeasurement> told_;  ///< by other sensors
 };
 
 }  // namespace oneac
