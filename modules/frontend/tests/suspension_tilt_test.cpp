@@ -253,6 +253,38 @@ TEST(SuspensionTilt, GivesWayToNoBump) {
   EXPECT_LT(pitch_of(filter) - before, 0.5 * kDegree);
 }
 
+/// Pitch and its 1σ after one step, on a filter that was sure, whose direction rises by so much.
+AngleBelief after_a_rise(double rise, double direction_sigma) {
+  SuspensionTilt filter(mounted(0.0));
+  Drive drive{nothing};
+  (void)follow(drive, filter, 8);
+  const double before = pitch_of(filter);
+  TiltStep step;
+  step.seconds = kPeriod;
+  step.length = 0.8;
+  step.travel = TiltStep::Travel{Eigen::Vector3d(0.0, std::sin(rise), std::cos(rise)), kTravelNoise,
+                                 direction_sigma * direction_sigma * Eigen::Matrix3d::Identity()};
+  filter.add_step(step, mounted(0.0));
+  return {pitch_of(filter) - before, sigma_of(filter)};
+}
+
+TEST(SuspensionTilt, LearnsLessFromADirectionThatImagesHardlyKnow) {
+  const double known = after_a_rise(0.4 * kDegree, 0.0).angle;
+  const double hardly = after_a_rise(0.4 * kDegree, 1.5 * kDegree).angle;
+  EXPECT_GT(known, 0.05 * kDegree);
+  EXPECT_LT(hardly, 0.2 * known);
+}
+
+TEST(SuspensionTilt, IsLessSureAfterADirectionThatContradictsIt) {
+  EXPECT_GT(after_a_rise(2.5 * kDegree, 0.0).sigma, 1.5 * after_a_rise(0.1 * kDegree, 0.0).sigma);
+}
+
+TEST(SuspensionTilt, IsNotLedAstrayByAWayThatSpringsDoNotAllow) {
+  const AngleBelief astray = after_a_rise(6.0 * kDegree, 0.0);
+  EXPECT_LT(std::abs(astray.angle), 0.05 * kDegree);
+  EXPECT_GT(astray.sigma, 0.25 * kDegree);
+}
+
 TEST(SuspensionTilt, IsAtRestAgainAfterAStepThatNobodySaw) {
   const TiltBelief mounting = mounted(2.0 * kDegree);
   SuspensionTilt filter(mounting);

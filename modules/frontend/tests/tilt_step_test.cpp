@@ -36,6 +36,16 @@ TEST(TiltStep, IsLessSureOfASlowCar) {
             2.0 * tilt_step(step_of(1.0, 0.1)).travel->sigma);
 }
 
+TEST(TiltStep, SaysHowWellTheImagesKnowTheDirection) {
+  StepResult step = step_of(0.8, 0.1);
+  step.covariance.setZero();
+  step.covariance(4, 4) = 0.01 * 0.01 * step.pose.t.squaredNorm();  // 0.01 rad upwards
+  const TiltStep found = tilt_step(step);
+  ASSERT_TRUE(found.travel.has_value());
+  EXPECT_NEAR(found.travel->covariance(1, 1), 1e-4, 1e-9);
+  EXPECT_EQ(found.travel->covariance(2, 2), 0.0);
+}
+
 TEST(TiltStep, SaysNothingOfTravelWhereThereIsNone) {
   StepResult step = step_of(0.0, 0.1);
   step.status = StepStatus::kNoMotion;
