@@ -49,9 +49,9 @@ make_root() {
   apt_settings >"$2/etc/apt/apt.conf.d/90host"
 }
 
-# in_namespace COMMAND...: its mounts and its processes end with it.
+# in_namespace COMMAND...: its mounts and its processes end with it, and it with this script.
 in_namespace() {
-  unshare --mount --pid --fork --kill-child -- "$@"
+  setpriv --pdeathsig KILL unshare --mount --pid --fork --kill-child -- "$@"
 }
 
 # in_root ROOT COMMAND: in the clone, with the environment of a fresh login.
