@@ -123,5 +123,17 @@ TEST_F(GuardedClasses, NoneTakesAGigabyteWhateverItsCountsClaim) {
   EXPECT_GT(classes, 50U);
 }
 
+TEST(GuardedClaims, TakeNoMemoryBeforeTheirBytesAreThere) {
+  const TemporaryFolder folder;
+  const auto file = folder.path() / "drive.rawlog";
+  test::write_bytes(file, std::string(1000, '\0'));
+  const auto look_ahead = [&] {
+    const std::size_t before = peak_mb();
+    const bool there = DecompressingStream(file).has_bytes(std::size_t{1} << 28);
+    std::_Exit(!there && peak_mb() < before + 64U ? 0 : 1);
+  };
+  EXPECT_EXIT(look_ahead(), ::testing::ExitedWithCode(0), "");
+}
+
 }  // namespace
 }  // namespace oneac
