@@ -126,7 +126,7 @@ TEST_F(GuardedClasses, NoneTakesAGigabyteWhateverItsCountsClaim) {
 TEST(GuardedClaims, TakeNoMemoryBeforeTheirBytesAreThere) {
   const TemporaryFolder folder;
   const auto file = folder.path() / "drive.rawlog";
-  test::write_bytes(file, std::string(1000, '\0'));
+  test::write_bytes(file, std::string(std::size_t{1} << 20, '\0'));
   const auto look_ahead = [&] {
     const std::size_t before = peak_mb();
     const bool there = DecompressingStream(file).has_bytes(std::size_t{1} << 28);
