@@ -17,19 +17,43 @@ as_root() {
   fi
 }
 
+# any_installed NAME|NAME...: whether one of these packages is.
+any_installed() {
+  local package
+  for package in ${1//|/ }; do
+    if dpkg-query -W -f '${Status}' "$package" 2>/dev/null | grep -q "install ok installed"; then
+      return 0
+    fi
+  done
+  return 1
+}
+
+# first_available NAME|NAME...: the first that this release has; the first of all, which apt will
+# name as missing, where it has none.
+first_available() {
+  local package
+  for package in ${1//|/ }; do
+    if apt-cache show --no-all-versions "$package" >/dev/null 2>&1; then
+      echo "$package"
+      return 0
+    fi
+  done
+  echo "${1%%|*}"
+}
+
 # install_packages USE...: installs the packages of packages.txt with one of these uses.
 install_packages() {
-  local wanted missing
+  local wanted missing names
   wanted=$(awk -v uses=" $* " '$1 !~ /^#/ && NF == 2 && index(uses, " " $1 " ") { print $2 }' \
     "$oneac_root/apps/packages.txt")
   missing=""
-  for package in $wanted; do
-    dpkg-query -W -f '${Status}' "$package" 2>/dev/null | grep -q "install ok installed" ||
-      missing="$missing $package"
+  for names in $wanted; do
+    any_installed "$names" || missing="$missing $names"
   done
   [ -z "$missing" ] && return 0
-  echo "oneac: installing$missing"
   as_root apt-get update -qq
+  missing=$(for names in $missing; do printf ' %s' "$(first_available "$names")"; done)
+  echo "oneac: installing$missing"
   # shellcheck disable=SC2086  # one word per package is meant
   as_root env DEBIAN_FRONTEND=noninteractive \
     apt-get install -y -qq --no-install-recommends $missing >/dev/null

@@ -18,4 +18,12 @@ case_name "says the end of anything else that fails"
 run quietly bash -c 'echo "no such target"; exit 1'
 expect_code 1
 expect_output "no such target"
+
+case_name "takes the first name of a package that the release has"
+dpkg-query() { [ "${!#}" = present ] && echo "install ok installed"; }
+apt-cache() { [ "${!#}" = newer ]; }
+[ "$(first_available 'older|newer')" = newer ] || fail "not the one that there is"
+[ "$(first_available 'older|oldest')" = older ] || fail "not the first where there is none"
+any_installed 'absent|present' || fail "one is installed"
+if any_installed 'absent|older'; then fail "none is installed"; fi
 echo ok

@@ -1,5 +1,6 @@
 #include "oneac/frontend/map_formats.h"
 
+#include "oneac/mrpt_compat/simple_map.h"
 #include "oneac/test_support/temporary_folder.h"
 
 #include <gtest/gtest.h>
@@ -66,7 +67,7 @@ TEST(MapFormats, SimpleMapIsReadByMrpt) {
   mrpt::maps::CSimpleMap map;
   ASSERT_TRUE(map.loadFromFile(path));
   ASSERT_EQ(map.size(), 2U);
-  const auto pair = map.getAsPair(1);
+  const auto pair = compat::keyframe_of(map, 1);
   const auto pose = pair.pose->getMeanVal();
   EXPECT_NEAR(pose.x(), 2.0, 1e-9);  // forward
   EXPECT_NEAR(pose.y(), -0.25, 1e-9);

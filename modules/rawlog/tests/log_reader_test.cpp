@@ -95,6 +95,24 @@ TEST_F(Reader, StopsAtARecordThatIsGarbage) {
   EXPECT_NE(std::string(reader.damage()->what()).find("record 3"), std::string::npos);
 }
 
+// As an old record of a class is whose form a newer MRPT has dropped.
+TEST_F(Reader, NamesTheClassWhoseFormThisReleaseDoesNotRead) {
+  const std::string name = "CObservationComment";
+  const char length = static_cast<char>(0x80U | name.size());
+  const std::string record = length + name + '\x7e' + std::string(40, '\0');
+  test::write_bytes(file_, record);
+  EXPECT_NE(open_fault().find("record 0: this release of MRPT cannot read its"), std::string::npos)
+      << open_fault();
+  EXPECT_NE(open_fault().find(name), std::string::npos) << open_fault();
+  EXPECT_NE(open_fault().find("rawlog-edit"), std::string::npos) << open_fault();
+  test::write_bytes(file_, test::packed(many(3)) + record);
+  LogReader reader(file_);
+  EXPECT_EQ(count(reader), 3U);
+  ASSERT_TRUE(reader.damage());
+  EXPECT_NE(std::string(reader.damage()->what()).find(name), std::string::npos)
+      << reader.damage()->what();
+}
+
 TEST_F(Reader, RefusesWhatIsNoRawlog) {
   test::write_bytes(file_, "This is a text file.\nIt has two lines.\n");
   EXPECT_NE(open_fault().find("not a readable rawlog (this is not an MRPT object)"),

@@ -20,6 +20,15 @@ namespace {
 
 namespace fs = std::filesystem;
 
+// Expat 2.9 deprecates the one that counts in a type of its own.
+std::size_t line_of(XML_Parser parser) {
+#if XML_MAJOR_VERSION > 2 || XML_MINOR_VERSION >= 9
+  return XML_GetCurrentLineNumber64(parser);
+#else
+  return XML_GetCurrentLineNumber(parser);
+#endif
+}
+
 std::optional<double> number(const char* text) {
   if (text == nullptr) return std::nullopt;
   double value = 0.0;
@@ -92,7 +101,7 @@ class Track {
   }
   void fail(const std::string& fault) {
     fault_ = fault;
-    line_ = XML_GetCurrentLineNumber(parser_);
+    line_ = line_of(parser_);
     XML_StopParser(parser_, XML_FALSE);
   }
 
@@ -119,7 +128,7 @@ void parse(XML_Parser parser, Track& track, const std::string& text, const fs::p
       XML_Parse(parser, text.data(), static_cast<int>(text.size()), XML_TRUE) == XML_STATUS_OK;
   if (read) return;
   const bool own = !track.fault().empty();
-  const std::size_t line = own ? track.line() : XML_GetCurrentLineNumber(parser);
+  const std::size_t line = own ? track.line() : line_of(parser);
   const std::string fault =
       own ? track.fault()
           : std::string("it is no XML (") + XML_ErrorString(XML_GetErrorCode(parser)) + ")";

@@ -100,8 +100,9 @@ bool DecompressingStream::has_bytes(std::size_t count) {
   if (count > kLargestRead) return false;
   std::copy(out_.data() + out_begin_, out_.data() + out_end_, out_.data());
   out_end_ -= std::exchange(out_begin_, 0);
-  if (out_.size() < count) out_.resize(count);
   while (out_end_ < count && !ended_) {
+    // As the bytes come, not as they are claimed: the claim may be any number.
+    if (out_end_ == out_.size()) out_.resize(std::min(count, 2 * out_.size()));
     out_end_ += produce(out_.data() + out_end_, out_.size() - out_end_);
   }
   return out_end_ >= count;

@@ -8,10 +8,12 @@
 
 #include <mrpt/obs/CActionCollection.h>
 #include <mrpt/obs/CSensoryFrame.h>
+#include <mrpt/rtti/CObject.h>
 
 #include <algorithm>
 #include <cctype>
 #include <new>
+#include <optional>
 #include <stdexcept>
 #include <utility>
 
@@ -20,7 +22,10 @@ namespace {
 
 constexpr const char* kCopyAgain =
     "what came before is used; copy the log again from where it came to have the rest";
-constexpr const char* kGarbage = "Exception while parsing";  // MRPT's words, without a reason
+constexpr const char* kUnparsed = "Exception while parsing";  // MRPT's words, without a reason
+constexpr const char* kOtherRelease =
+    "if it is damaged, copy the log again from where it came; if not, remove the observations of "
+    "this class with rawlog-edit of the release of MRPT that wrote it";
 constexpr const char* kNotARawlog = "give an MRPT .rawlog (plain, gzip or zstd)";
 
 // Whether MRPT complains of "class 'CName' which is not registered", rather than of garbage.
@@ -33,6 +38,21 @@ bool is_unknown_class(const std::string& fault) {
   return first != last && std::all_of(first, last, [](unsigned char c) {
            return std::isalnum(c) != 0 || c == '_' || c == ':';
          });
+}
+
+bool is_unparsed(const std::string& fault) {
+  return fault.rfind(kUnparsed, 0) == 0;
+}
+
+// The class whose content MRPT gave up, as the first in quotes; nothing where that is garbage.
+std::optional<std::string> unparsed_class(const std::string& fault) {
+  if (!is_unparsed(fault)) return std::nullopt;
+  const auto begin = fault.find('\'');
+  const auto end = begin == std::string::npos ? begin : fault.find('\'', begin + 1);
+  if (end == std::string::npos) return std::nullopt;
+  std::string name = fault.substr(begin + 1, end - begin - 1);
+  if (mrpt::rtti::findRegisteredClass(name) == nullptr) return std::nullopt;
+  return name;
 }
 
 }  // namespace
@@ -87,7 +107,6 @@ bool LogReader::read_record() {
     fault = "the record claims an absurd size";
   } catch (const std::exception& error) {
     fault = compat::message_of(error);
-    if (fault.rfind(kGarbage, 0) == 0) fault = "this is not an MRPT object";
     if (stream.ran_out()) fault = "the file ends in the middle of a record";
   }
   set_damage(stream.fault().empty() ? fault : stream.fault());
@@ -117,19 +136,24 @@ void LogReader::take(const mrpt::serialization::CSerializable::Ptr& object) {
   }  // other objects may be stored between observations: not ours
 }
 
-void LogReader::set_damage(const std::string& fault) {
-  if (is_unknown_class(fault)) {
-    damage_.emplace(log_.string() + ": record " + std::to_string(records_), fault,
+void LogReader::set_damage(const std::string& said) {
+  const std::string where = log_.string() + ": record " + std::to_string(records_);
+  if (is_unknown_class(said)) {
+    damage_.emplace(where, said,
                     "remove the observations of this class from the log with rawlog-edit");
     return;
   }
+  if (const auto name = unparsed_class(said)) {
+    damage_.emplace(where, "this release of MRPT cannot read its " + *name, kOtherRelease);
+    return;
+  }
+  const std::string fault = is_unparsed(said) ? "this is not an MRPT object" : said;
   if (records_ == 0) {
     const bool damaged = !archive_->stream.fault().empty();
-    damage_.emplace(log_.string() + ": record 0", "not a readable rawlog (" + fault + ")",
+    damage_.emplace(where, "not a readable rawlog (" + fault + ")",
                     damaged ? "copy the log again from where it came" : kNotARawlog);
     return;
   }
-  const std::string where = log_.string() + ": record " + std::to_string(records_);
   damage_.emplace(where, fault, kCopyAgain);
 }
 

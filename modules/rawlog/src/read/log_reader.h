@@ -47,7 +47,7 @@ class LogReader {
   struct Archive;
   bool read_record();
   void take(const std::shared_ptr<mrpt::serialization::CSerializable>& object);
-  void set_damage(const std::string& fault);
+  void set_damage(const std::string& said);
 
   std::filesystem::path log_;
   std::unique_ptr<Archive> archive_;
