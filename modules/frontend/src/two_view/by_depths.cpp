@@ -31,10 +31,11 @@ constexpr double kFar = 0.02;
 // Points that overdetermine six unknowns, and those of them that know metres.
 constexpr std::size_t kFewest = 20, kFewestNear = 6;
 constexpr double kMajority = 0.5;
-constexpr double kCut = 3.0;     // [σ] scale of the loss at the end ...
-constexpr double kWidest = 8.0;  // [-] ... and at the start, over that
-constexpr int kIterations = 14;  // the last eight at the final scale
-constexpr double kMoves = 3.0;   // [σ] of a translation that is one
+constexpr double kCut = 3.0;      // [σ] scale of the loss at the end ...
+constexpr double kWidest = 8.0;   // [-] ... and at the start, over that
+constexpr int kIterations = 14;   // the last eight at the final scale
+constexpr double kMoves = 3.0;    // [σ] of a translation that is one
+constexpr double kRocks = 0.005;  // [m] less is that of a body on its springs
 // Wheels roll along the car, and a camera ahead of the rear axle swings by tan⁻¹(2 m / 4 m).
 constexpr double kSwing = 30.0 * kDegree;
 // Nor does a car turn on the spot: [m] the tightest bend of a camera's way, [rad] a turn's noise.
@@ -198,7 +199,7 @@ TwoView creeping_by_depths(TwoView seen, const PointDepths& depths, const TwoVie
   const auto motion = solve(points, seen.pose.R);
   if (!motion || motion->T_2_1.t.norm() > kShort) return seen;
   if (!is_of_a_car(*motion, prior.course.direction, prior.R_level_cam.row(1))) return seen;
-  const bool moves = motion->T_2_1.t.norm() > kMoves * sigma_along(*motion);
+  const bool moves = motion->T_2_1.t.norm() > std::max(kRocks, kMoves * sigma_along(*motion));
   seen.status = moves ? StepStatus::kOk : StepStatus::kNoMotion;
   seen.pose = {motion->T_2_1.R, Eigen::Vector3d::Zero()};
   seen.covariance.setZero();
