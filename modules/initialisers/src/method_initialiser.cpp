@@ -8,7 +8,9 @@
 #include <mrpt/containers/yaml.h>
 
 #include <algorithm>
+#include <array>
 #include <cctype>
+#include <cstddef>
 #include <deque>
 #include <stdexcept>
 #include <utility>
@@ -58,10 +60,33 @@ std::string class_name_of(const std::string& method) {
   return name;
 }
 
-void add_method(const std::string& name, const Solver* solver, std::deque<Method>& methods) {
-  Method& method = methods.emplace_back(Method{name, solver, class_name_of(name), {}});
-  method.id = {method.class_name.c_str(),
-               [&method] { return std::make_shared<MethodInitialiser>(method); },
+const std::deque<Method>& methods();
+
+// MRPT creates objects by a function, from 2.14 on by one that captures nothing: so there is one
+// for each place of the list.
+using Creator = mrpt::rtti::CObject::Ptr (*)();
+constexpr std::size_t kMostMethods = 32;
+
+template <std::size_t I>
+mrpt::rtti::CObject::Ptr create_method() {
+  return std::make_shared<MethodInitialiser>(methods()[I]);
+}
+
+template <std::size_t... I>
+constexpr std::array<Creator, sizeof...(I)> creators(std::index_sequence<I...>) {
+  return {&create_method<I>...};
+}
+
+/// @throws std::out_of_range  more methods than kMostMethods
+Creator creator_at(std::size_t place) {
+  static constexpr auto kCreators = creators(std::make_index_sequence<kMostMethods>());
+  return kCreators.at(place);
+}
+
+void add_method(const std::string& name, const Solver* solver, std::deque<Method>& all) {
+  const Creator creator = creator_at(all.size());
+  Method& method = all.emplace_back(Method{name, solver, class_name_of(name), {}});
+  method.id = {method.class_name.c_str(), creator,
                [] { return CLASS_ID(RelativePoseInitialiser); }};
 }
 
