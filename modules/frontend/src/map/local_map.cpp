@@ -49,16 +49,18 @@ void LocalMap::extend(const TrackedPair& step, const std::vector<bool>& inliers)
   newest_is_keyframe_.reset();
 }
 
+double LocalMap::depth_in(const RelativePose& T_view_map, const Track& track) const {
+  const RelativePose T = T_view_map * keyframe(track.anchor).T_cam_map.inverse();
+  return (T * (track.ray.homogeneous() / track.inverse_depth)).z();
+}
+
 std::optional<LengthMeasurement> LocalMap::carry(const RelativePose& unit_step,
                                                  const RelativePose& T_before_map) const {
   std::vector<LengthVote> votes;
   for (const auto& [id, track] : tracks_) {
     if (!is_sure(track)) continue;
-    const double rho = track.inverse_depth;
-    const RelativePose T = T_before_map * keyframe(track.anchor).T_cam_map.inverse();
     // The map tells the depth; where the point lies in the image was measured.
-    const double depth = (T * (track.ray.homogeneous() / rho)).z();
-    const Eigen::Vector3d X = depth * track.previous_x.homogeneous();
+    const Eigen::Vector3d X = depth_in(T_before_map, track) * track.previous_x.homogeneous();
     const auto vote = length_vote(unit_step, X, track.now.x, relative_sigma(track), sigma_);
     if (vote) votes.push_back(*vote);
   }
@@ -76,8 +78,7 @@ PointDepths LocalMap::depths(const TrackedPair& step, const RelativePose& T_befo
     const auto at = tracks_.find(step.correspondences[i].track);
     if (at == tracks_.end() || !is_sure(at->second)) continue;
     const Track& track = at->second;
-    const RelativePose T = T_before_map * keyframe(track.anchor).T_cam_map.inverse();
-    const double z = (T * (track.ray.homogeneous() / track.inverse_depth)).z();
+    const double z = depth_in(T_before_map, track);
     if (z > 0.0) depths[i] = MeasuredDepth{z, relative_sigma(track)};
   }
   return depths;
@@ -196,9 +197,7 @@ std::vector<DepthComparison> LocalMap::compare_depths(const TrackedPair& step) c
     const auto at = tracks_.find(ac.track);
     if (at == tracks_.end() || !is_sure(at->second)) continue;
     const Track& track = at->second;
-    const RelativePose T = window_.back().T_cam_map * keyframe(track.anchor).T_cam_map.inverse();
-    const double in_map = (T * (track.ray.homogeneous() / track.inverse_depth)).z();
-    depths.push_back({in_map, relative_sigma(track), *ac.depth});
+    depths.push_back({depth_in(window_.back().T_cam_map, track), relative_sigma(track), *ac.depth});
   }
   return depths;
 }

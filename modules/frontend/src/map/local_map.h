@@ -71,6 +71,8 @@ class LocalMap {
   [[nodiscard]] Eigen::Matrix<double, 6, 6> oldest_constraint() const;
 
  private:
+  /// [map] of a landmark in a view. @pre it has a depth
+  [[nodiscard]] double depth_in(const RelativePose& T_view_map, const Track& track) const;
   [[nodiscard]] const WindowKeyframe& keyframe(std::size_t id) const;
   [[nodiscard]] std::size_t position(std::size_t id) const { return id - window_.front().id; }
   [[nodiscard]] bool stretches(const std::vector<WindowView>& views) const;
