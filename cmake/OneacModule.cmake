@@ -1,12 +1,12 @@
-# Helpers shared by all modules: one place for the language level, warnings, ccache, sanitizers,
-# precompiled headers.
+# Helpers shared by all modules: one place for the language level, warnings, ccache,
+# sanitizers, levels of optimisation.
+
+include(OneacTogether)
 
 find_program(ONEAC_CCACHE ccache)
 if(ONEAC_CCACHE AND NOT CMAKE_CXX_COMPILER_LAUNCHER)
-  # ccache keeps what uses a precompiled header only when told that its macros may be trusted.
-  set(launcher env CCACHE_SLOPPINESS=pch_defines,time_macros "${ONEAC_CCACHE}")
-  set(CMAKE_C_COMPILER_LAUNCHER ${launcher})
-  set(CMAKE_CXX_COMPILER_LAUNCHER ${launcher})
+  set(CMAKE_C_COMPILER_LAUNCHER "${ONEAC_CCACHE}")
+  set(CMAKE_CXX_COMPILER_LAUNCHER "${ONEAC_CCACHE}")
 endif()
 if(ONEAC_CLANG_TIDY)
   find_program(ONEAC_CLANG_TIDY_PROGRAM NAMES clang-tidy-14 clang-tidy REQUIRED)
@@ -38,80 +38,32 @@ function(oneac_common target)
   endif()
 endfunction()
 
-# Kinds of targets: how hard a release optimises them, and the third-party headers that they read
-# once together instead of once per file. Neither changes a result: every level keeps IEEE
-# arithmetic (no -ffast-math). A kind's targets share all their compile flags.
+# Kinds of targets: how hard a release optimises them. None changes a result: every level keeps IEEE
+# arithmetic (no -ffast-math).
 #   kernel           loops over points, pixels and hypotheses: the build type's own level
 #   kernel_no_errno  the same with -fno-math-errno
 #   mrpt             steers kernels; sees MRPT
-#   cold, cold_mrpt  tables, figures, reports: runs once per result
+#   cold             tables, figures, reports: runs once per result
 #   program, test    as cold
-set(ONEAC_STD_HEADERS <algorithm> <array> <cmath> <cstdint> <filesystem> <functional> <map> <memory>
-    <optional> <string> <vector>)
-set(ONEAC_MRPT_HEADERS <mrpt/containers/yaml.h> <mrpt/obs/CObservationImage.h>
-    <mrpt/obs/CSensoryFrame.h>)
 # GCC misjudges Eigen below -O2.
 set(ONEAC_COLD_OPTIONS -O1 $<$<CXX_COMPILER_ID:GNU>:-Wno-maybe-uninitialized>)
 
-set(ONEAC_HEADERS_kernel ${ONEAC_STD_HEADERS} <Eigen/Dense>)
-set(ONEAC_HEADERS_kernel_no_errno ${ONEAC_HEADERS_kernel})
 set(ONEAC_OPTIONS_kernel_no_errno -fno-math-errno)  # sqrt is inlined, no call
-set(ONEAC_HEADERS_mrpt ${ONEAC_HEADERS_kernel} ${ONEAC_MRPT_HEADERS})
 set(ONEAC_RELEASE_OPTIONS_mrpt -O2)
-set(ONEAC_HEADERS_cold ${ONEAC_HEADERS_kernel})
 set(ONEAC_RELEASE_OPTIONS_cold ${ONEAC_COLD_OPTIONS})
-set(ONEAC_HEADERS_cold_mrpt ${ONEAC_HEADERS_mrpt})
-set(ONEAC_RELEASE_OPTIONS_cold_mrpt ${ONEAC_COLD_OPTIONS})
-set(ONEAC_HEADERS_program ${ONEAC_HEADERS_kernel} <CLI/CLI.hpp> <mrpt/containers/yaml.h>)
 set(ONEAC_RELEASE_OPTIONS_program ${ONEAC_COLD_OPTIONS})
-set(ONEAC_HEADERS_test ${ONEAC_HEADERS_kernel} <gtest/gtest.h>)
 set(ONEAC_RELEASE_OPTIONS_test ${ONEAC_COLD_OPTIONS})
 
-set(ONEAC_HEADER_LIBRARIES_kernel Eigen3::Eigen)
-set(ONEAC_HEADER_LIBRARIES_kernel_no_errno Eigen3::Eigen)
-set(ONEAC_HEADER_LIBRARIES_cold Eigen3::Eigen)
-set(ONEAC_HEADER_LIBRARIES_mrpt Eigen3::Eigen mrpt::obs mrpt::containers)
-set(ONEAC_HEADER_LIBRARIES_cold_mrpt ${ONEAC_HEADER_LIBRARIES_mrpt})
-set(ONEAC_HEADER_LIBRARIES_program Eigen3::Eigen mrpt::containers CLI11::CLI11)
-set(ONEAC_HEADER_LIBRARIES_test Eigen3::Eigen GTest::gtest)
-set(ONEAC_EXECUTABLE_KINDS program test)  # their code is not position independent
-
-function(oneac_compile_options target kind)
+# oneac_kind(TARGET KIND): optimises as the kind, and compiles files together when asked to.
+function(oneac_kind target kind)
   foreach(option IN LISTS ONEAC_OPTIONS_${kind})
     target_compile_options(${target} PRIVATE ${option})
   endforeach()
   foreach(option IN LISTS ONEAC_RELEASE_OPTIONS_${kind})
     target_compile_options(${target} PRIVATE $<$<CONFIG:Release>:${option}>)
   endforeach()
-  if(ONEAC_PRECOMPILED_HEADERS AND CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
-    target_compile_options(${target} PRIVATE -fpch-preprocess)  # ccache asks for it
-  endif()
-endfunction()
-
-# oneac_headers(KIND): the target oneac_headers_KIND, whose precompiled header the kind shares.
-function(oneac_headers kind)
-  if(TARGET oneac_headers_${kind})
-    return()
-  endif()
-  set(source "${PROJECT_BINARY_DIR}/headers/${kind}.cpp")
-  file(CONFIGURE OUTPUT "${source}" CONTENT "// Nothing but the headers of ${kind}.\n")
-  add_library(oneac_headers_${kind} OBJECT "${source}")
-  target_link_libraries(oneac_headers_${kind} PRIVATE ${ONEAC_HEADER_LIBRARIES_${kind}})
-  if(NOT kind IN_LIST ONEAC_EXECUTABLE_KINDS)
-    set_target_properties(oneac_headers_${kind} PROPERTIES POSITION_INDEPENDENT_CODE ON)
-  endif()
-  target_precompile_headers(oneac_headers_${kind} PRIVATE ${ONEAC_HEADERS_${kind}})
-  oneac_compile_options(oneac_headers_${kind} ${kind})
-  target_link_libraries(oneac_headers_${kind} PRIVATE oneac_options)
-endfunction()
-
-# oneac_kind(TARGET KIND): optimises as the kind, shares its headers. The presets "clang" and "tidy"
-# do without these and see that each file includes what it uses.
-function(oneac_kind target kind)
-  oneac_compile_options(${target} ${kind})
-  if(ONEAC_PRECOMPILED_HEADERS)
-    oneac_headers(${kind})
-    target_precompile_headers(${target} REUSE_FROM oneac_headers_${kind})
+  if(ONEAC_BUILD_TOGETHER)
+    oneac_together(${target})
   endif()
 endfunction()
 
@@ -152,7 +104,7 @@ function(oneac_simd name file)
     set(source "${CMAKE_CURRENT_BINARY_DIR}/simd/${stem}_${bytes}.cpp")
     file(CONFIGURE OUTPUT "${source}" CONTENT "#define ONEAC_SIMD_BYTES ${bytes}\n#include \"${body}\"\n")
     set_source_files_properties("${source}" PROPERTIES INCLUDE_DIRECTORIES "${folder}"
-                                COMPILE_OPTIONS "${flags_${bytes}}" SKIP_PRECOMPILE_HEADERS ON)
+                                COMPILE_OPTIONS "${flags_${bytes}}")
     target_sources(oneac_${name} PRIVATE "${source}")
   endforeach()
 endfunction()

@@ -13,14 +13,14 @@ constexpr double kStanding = 0.5;    // [m/s] below which a course is noise of a
 constexpr double kLongestGap = 5.0;  // [s] courses further apart are not one curve
 constexpr double kTau = 6.283185307179586;
 
-struct Sample {
+struct TimedValue {
   double time_s;
   double value;
 };
 
 /// Courses while driving, without jumps of a full turn.
-std::vector<Sample> driving_courses(const VehicleReference& vehicle) {
-  std::vector<Sample> courses;
+std::vector<TimedValue> driving_courses(const VehicleReference& vehicle) {
+  std::vector<TimedValue> courses;
   for (const GpsFix& fix : vehicle.gps) {
     if (!fix.course || (fix.speed && *fix.speed < kStanding)) continue;
     const double before = courses.empty() ? *fix.course : courses.back().value;
@@ -36,7 +36,7 @@ double parabola_residual(const std::array<double, 5>& y) {
   return (y[2] - fitted) / std::sqrt(18.0 / 35.0);
 }
 
-std::vector<double> residuals_of(const std::vector<Sample>& courses) {
+std::vector<double> residuals_of(const std::vector<TimedValue>& courses) {
   std::vector<double> residuals;
   for (std::size_t i = 2; i + 2 < courses.size(); ++i) {
     std::array<double, 5> y{};
@@ -50,7 +50,7 @@ std::vector<double> residuals_of(const std::vector<Sample>& courses) {
   return residuals;
 }
 
-double median_spacing(const std::vector<Sample>& samples) {
+double median_spacing(const std::vector<TimedValue>& samples) {
   std::vector<double> spacings;
   for (std::size_t i = 1; i < samples.size(); ++i) {
     spacings.push_back(samples[i].time_s - samples[i - 1].time_s);
@@ -82,7 +82,7 @@ std::optional<double> gyro_turn(const VehicleReference& vehicle, double t0, doub
 }  // namespace
 
 std::optional<GpsQuality> gps_quality(const VehicleReference& vehicle, double spacing_s) {
-  const std::vector<Sample> courses = driving_courses(vehicle);
+  const std::vector<TimedValue> courses = driving_courses(vehicle);
   const std::vector<double> residuals = residuals_of(courses);
   if (residuals.empty()) return std::nullopt;
   GpsQuality quality;

@@ -6,7 +6,6 @@
 namespace oneac::internal {
 namespace {
 
-constexpr float kGreyUnit = 1.0F / PyramidLevel::kPerGrey;
 constexpr int kMemory = 30;       // [frames] that a mean reaches back: one or two seconds
 constexpr int kLeastFrames = 12;  // passing structure keeps a twelfth then
 constexpr float kRadial = 0.25F;  // least cos² between gradient and flow
@@ -33,8 +32,9 @@ void StaticStructure::add(const PyramidLevel& level, const Eigen::Vector2d& foe,
     Mean* mean = means_.data() + static_cast<std::ptrdiff_t>(v) * width_;
     const float y = static_cast<float>(v) - fy;
     for (int u = kBorder; u < width_ - kBorder; ++u) {
-      const float gx = 0.5F * kGreyUnit * static_cast<float>(here[u + 1] - here[u - 1]);
-      const float gy = 0.5F * kGreyUnit * static_cast<float>(below[u] - above[u]);
+      const float gx =
+          0.5F * PyramidLevel::kGreyPerUnit * static_cast<float>(here[u + 1] - here[u - 1]);
+      const float gy = 0.5F * PyramidLevel::kGreyPerUnit * static_cast<float>(below[u] - above[u]);
       const float x = static_cast<float>(u) - fx;
       const float away = x * x + y * y + 1.0F;
       const float dot = gx * x + gy * y;

@@ -9,7 +9,6 @@
 namespace oneac::internal {
 namespace {
 
-constexpr float kGreyUnit = 1.0F / PyramidLevel::kPerGrey;
 // [grey/px] a gradient that image noise (below 1 grey after smoothing) places to a third of a px.
 constexpr float kLeastGradient = 3.0F;
 constexpr float kRest = 0.04F;          // [px of the level] the noise of a flow by such a gradient
@@ -41,7 +40,7 @@ int slope(const std::uint16_t* p, int step) {
 
 std::vector<Asked> ask(const PyramidLevel& before, const PyramidLevel& now,
                        const TravelView& view) {
-  constexpr float kUnit = kGreyUnit / 24.0F;  // of the sum of two slopes
+  constexpr float kUnit = PyramidLevel::kGreyPerUnit / 24.0F;  // of the sum of two slopes
   const Eigen::Vector2f foe = view.foe.cast<float>(), centre = view.centre.cast<float>();
   const auto focal = static_cast<float>(view.focal);
   std::vector<Asked> asked;
@@ -53,8 +52,9 @@ std::vector<Asked> ask(const PyramidLevel& before, const PyramidLevel& now,
       const float gx = kUnit * static_cast<float>(dx), gy = kUnit * static_cast<float>(dy);
       if (gx * gx + gy * gy < kLeastGradient * kLeastGradient) continue;
       const auto x = static_cast<float>(u), y = static_cast<float>(v);
-      asked.push_back({gx, gy, kGreyUnit * static_cast<float>(b[u] - a[u]), x - foe.x(),
-                       y - foe.y(), turned(gx, gy, x - centre.x(), y - centre.y(), focal)});
+      asked.push_back({gx, gy, PyramidLevel::kGreyPerUnit * static_cast<float>(b[u] - a[u]),
+                       x - foe.x(), y - foe.y(),
+                       turned(gx, gy, x - centre.x(), y - centre.y(), focal)});
     }
   }
   return asked;

@@ -15,6 +15,7 @@ namespace oneac::internal {
 struct PyramidLevel {
   static constexpr int kBorder = 24;   ///< [px] room for a window whose centre is on the border
   static constexpr int kPerGrey = 16;  ///< units of a pixel in one grey level
+  static constexpr float kGreyPerUnit = 1.0F / kPerGrey;  ///< grey levels in a unit
 
   int width = 0;
   int height = 0;

@@ -10,8 +10,6 @@
 namespace oneac {
 namespace {
 
-// [px] 1σ of a coordinate whose track does not say.
-constexpr double kPointSigma_px = 0.25;
 // [σ] A point farther from its epipolar line has a motion of its own.
 constexpr double kOff = 3.0;
 // [-] of the points that must agree: fewer may be a car that crosses near by.
@@ -32,7 +30,7 @@ std::vector<LengthVote> votes_of(const TwoView& seen, const RelativePose& unit_s
   for (std::size_t i = 0; i < seen.pair.size(); ++i) {
     const Correspondence& ac = seen.pair.correspondences[i];
     if (!ac.depth || (i < seen.inliers.size() && !seen.inliers[i])) continue;
-    const double sigma = ac.point_sigma > 0.0 ? ac.point_sigma : kPointSigma_px / seen.focal_px;
+    const double sigma = point_sigma(ac, seen.focal_px);
     if (off_line(unit_step, ac) > kOff * sigma) continue;
     const Eigen::Vector3d X = ac.depth->z * ac.x2.homogeneous();
     const auto vote = length_vote(back, X, ac.x1, ac.depth->sigma, sigma);

@@ -24,8 +24,8 @@ using Vector6 = Eigen::Matrix<double, 6, 1>;
 
 // [m] A longer step has parallax enough for its two views alone.
 constexpr double kShort = 0.2;
-// [px] 1σ of a coordinate whose track does not say, and what it does not know of.
-constexpr double kPointSigma_px = 0.25, kLeastSigma_px = 0.1;
+// [px] what the σ of a track does not know of.
+constexpr double kLeastSigma_px = 0.1;
 // [1/m] of a point without a depth: it lies somewhere beyond 25 m, if it does not lie on the road.
 constexpr double kFar = 0.02;
 // Points that overdetermine six unknowns, and those of them that know metres.
@@ -67,7 +67,7 @@ std::vector<Point> points_of(const TwoView& seen, const PointDepths& depths,
     const Correspondence& ac = seen.pair.correspondences[i];
     const bool near = depths[i] && depths[i]->z > 0.0;
     if (!near && !below[i]) continue;
-    const double track = ac.point_sigma > 0.0 ? ac.point_sigma : kPointSigma_px / seen.focal_px;
+    const double track = point_sigma(ac, seen.focal_px);
     Point point{ac.x2.homogeneous(),
                 ac.x1,
                 std::hypot(track, kLeastSigma_px / seen.focal_px),

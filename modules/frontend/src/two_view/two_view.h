@@ -48,6 +48,12 @@ struct TwoView {
   std::string fault;  ///< of the initialiser's answer, which is not used; "" as a rule
 };
 
+/// 1σ of a coordinate of a normalised correspondence; 0.25 px where its track does not say.
+[[nodiscard]] inline double point_sigma(const Correspondence& ac, double focal_px) {
+  constexpr double kUntold_px = 0.25;
+  return ac.point_sigma > 0.0 ? ac.point_sigma : kUntold_px / focal_px;
+}
+
 /// Initialises, corrects for perspective, refines. Does not change from pair to pair.
 class TwoViewEstimator {
  public:

@@ -3,6 +3,7 @@
 #include "calibration/calibration_numbers.h"
 #include "import/import_images.h"
 #include "import/stamps.h"
+#include "import/timed_record.h"
 #include "read/calibration_file.h"
 
 #include "oneac/base/error.h"
@@ -13,7 +14,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
 #include <sstream>
 
 namespace oneac {
@@ -25,19 +25,13 @@ std::string size_text(int width, int height) {
   return std::to_string(width) + "x" + std::to_string(height);
 }
 
-/// A record that is written when its turn comes.
-struct Pending {
-  double time_s;
-  std::function<void(RawlogWriter&)> write;
-};
-
 class DriveWriter {
  public:
   DriveWriter(const ImageDrive& drive, const fs::path& log, bool copy_images)
       : drive_(drive), log_(log), references_(log, copy_images) {}
 
   void run(ImportReport& report) {
-    std::vector<Pending> pending;
+    std::vector<TimedRecord> pending;
     for (std::size_t i = 0; i < drive_.images.size(); ++i) {
       pending.push_back({drive_.times_s[i], [this, i](RawlogWriter& log) { write_image(i, log); }});
     }
@@ -47,9 +41,7 @@ class DriveWriter {
     for (const ImuRecord& sample : drive_.imu) {
       pending.push_back({sample.time_s, [&sample](RawlogWriter& log) { log.write(sample); }});
     }
-    std::stable_sort(pending.begin(), pending.end(),
-                     [](const Pending& a, const Pending& b) { return a.time_s < b.time_s; });
-    for (const Pending& record : pending) record.write(log_);
+    write_in_order(std::move(pending), log_);
     log_.close();
     report.observations = drive_.images.size();
     report.images = drive_.images.size() + rights_;

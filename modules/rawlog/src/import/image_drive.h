@@ -11,6 +11,9 @@
 
 namespace oneac {
 
+/// [m] of KITTI's cameras above the road.
+constexpr double kKittiHeight_m = 1.65;
+
 /// The right images of a rectified pair.
 struct RightImages {
   std::vector<std::filesystem::path> images;  ///< one for each left image; "": there is none

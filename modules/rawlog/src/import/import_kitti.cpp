@@ -29,8 +29,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr double kRate_hz = 10.0;   // KITTI's, where times.txt is missing
-constexpr double kHeight_m = 1.65;  // of KITTI's cameras above the road
+constexpr double kRate_hz = 10.0;  // KITTI's, where times.txt is missing
 constexpr std::array<double, 3> kFocals_px{707.0912, 718.856, 721.5377};  // of KITTI's days
 constexpr double kSameFocal_px = 0.05;
 constexpr std::size_t kPoseColumns = 12;  // rows of [R | t]
@@ -164,7 +163,7 @@ double height_of(const KittiImport& options, const PinholeCamera& camera, Import
     report.notes.emplace_back(
         "size and focal length are KITTI's: its camera height of 1.65 m is "
         "taken, give another with --camera-height");
-    return kHeight_m;
+    return kKittiHeight_m;
   }
   report.notes.emplace_back(
       "the camera's height is not known, and nothing will be in metres by it: give "

@@ -14,8 +14,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr double kHeight_m = 1.65;  // of KITTI's cameras above the road
-
 /// The cameras of KITTI's car: grey and colour pairs.
 struct RawPair {
   const char *left, *right, *left_id, *right_id;
@@ -136,7 +134,7 @@ double height_of(const DriveImport& options, ImportReport& report) {
   report.notes.emplace_back(
       "the layout is that of KITTI's raw data: its camera height of 1.65 m is taken, give another "
       "with --camera-height");
-  return kHeight_m;
+  return kKittiHeight_m;
 }
 
 }  // namespace

@@ -3,6 +3,7 @@
 #include "import/import_images.h"
 #include "import/malaga_images.h"
 #include "import/malaga_text.h"
+#include "import/timed_record.h"
 
 #include "oneac/geometry/camera_frame.h"
 #include "oneac/geometry/levelling.h"
@@ -10,7 +11,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
 #include <vector>
 
 namespace oneac {
@@ -27,12 +27,6 @@ Eigen::Isometry3d malaga_mount(const std::optional<MountAngles>& given) {
   T.translation() << 0.785, 0.0, 0.273;
   return T;
 }
-
-/// A record that is written when its turn comes.
-struct Pending {
-  double time_s;
-  std::function<void(RawlogWriter&)> write;
-};
 
 class MalagaImporter {
  public:
@@ -51,9 +45,7 @@ class MalagaImporter {
     const ImageReferences references(options_.log, options_.copy_images);
     for (const MalagaPair& pair : pairs) add_pair(pair, references);
     note_what_is_missing(pairs);
-    std::stable_sort(pending_.begin(), pending_.end(),
-                     [](const Pending& a, const Pending& b) { return a.time_s < b.time_s; });
-    for (const Pending& record : pending_) record.write(log);
+    write_in_order(std::move(pending_), log);
     log.close();
     return report_;
   }
@@ -132,7 +124,7 @@ class MalagaImporter {
   const MalagaImport& options_;
   ImportReport report_;
   StereoCalibration calibration_;
-  std::vector<Pending> pending_;
+  std::vector<TimedRecord> pending_;
 };
 
 }  // namespace

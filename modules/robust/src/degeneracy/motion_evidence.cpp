@@ -2,6 +2,7 @@
 
 #include "degeneracy/motion_flow.h"
 
+#include "oneac/base/require.h"
 #include "oneac/robust/rotation_only.h"
 
 #include <Eigen/Dense>
@@ -109,12 +110,6 @@ class Judge {
   const MotionEvidenceOptions& options_;
   std::vector<Eigen::Vector2f> resting_;
 };
-
-void require(bool good, const char* field, double value, const char* bound) {
-  if (good) return;
-  throw std::invalid_argument(std::string(field) + " = " + std::to_string(value) + ", must be " +
-                              bound);
-}
 
 }  // namespace
 

@@ -1,6 +1,7 @@
 #include "points/five_point_basis.h"
 
 #include "planes/small_rotation.h"
+#include "points/motion_essential.h"
 
 #include <Eigen/Geometry>
 #include <Eigen/LU>
@@ -39,12 +40,6 @@ using Vector9 = Eigen::Matrix<double, 9, 1>;
     R = small_rotation(w) * R;
   }
   return R;
-}
-
-[[nodiscard]] Vector9 packed(const Eigen::Matrix3d& E) {
-  Vector9 e;
-  e << E(0, 0), E(0, 1), E(0, 2), E(1, 0), E(1, 1), E(1, 2), E(2, 0), E(2, 1), E(2, 2);
-  return e;
 }
 
 /// The vector orthogonal to three in four dimensions, as long as their volume.
