@@ -45,6 +45,8 @@ struct DriveRecord {
   std::optional<TimeSpan> gps;  ///< from the first fix to the last, of what was read of the log
   std::vector<std::string> setup_faults;  ///< of camera and log, at the end: nothing is in metres
   std::size_t out_of_order = 0;           ///< images left out: not later than the one before
+  std::size_t repeated = 0;               ///< images left out: the pixels of the one before
+  std::string first_repeated;             ///< name of the first of them
   bool interrupted = false;
   std::string failure;  ///< one line when an image stopped the run early, else ""
 

@@ -5,6 +5,7 @@
 
 #include "oneac/base/error.h"
 #include "oneac/base/ordered_pipeline.h"
+#include "oneac/observations/repeat_watch.h"
 
 #include <cstddef>
 #include <limits>
@@ -163,6 +164,10 @@ class Drive {
   /// @return whether to go on
   bool process(Prepared prepared) {
     const CameraFrame& frame = prepared.frame.frame;
+    if (repeats_.repeats(frame.image.view())) {
+      if (record_.repeated++ == 0) record_.first_repeated = frame.name;
+      return !interrupted();
+    }
     const bool is_first = record_.frames.empty();
     if (is_first) remember_mounting(frame);
     speeds_.feed_until(frame.time_s, front_end_);
@@ -219,6 +224,7 @@ class Drive {
   const VehicleReference sensors_;
   SpeedFeeder speeds_{sensors_.speeds};
   ProgressBar progress_;
+  RepeatWatch repeats_;
   bool source_failed_ = false;
   double last_time_ = -std::numeric_limits<double>::infinity();
   DriveRecord record_;

@@ -266,6 +266,11 @@ std::vector<std::string> notes_about(const DriveRecord& record) {
     notes.push_back(std::to_string(record.out_of_order) +
                     " images do not lie after the one before in time and were left out");
   }
+  if (record.repeated > 0) {
+    notes.push_back(
+        std::to_string(record.repeated) + " images repeat the one before, pixel by pixel (first: " +
+        record.first_repeated + "), and were left out: the camera froze, or a video was stretched");
+  }
   if (const std::string lone = about_lone_images(record); !lone.empty()) notes.push_back(lone);
   if (!record.tilt_fallback.empty()) notes.push_back(record.tilt_fallback);
   if (const std::string gps = gps_beside_images(record); !gps.empty()) notes.push_back(gps);

@@ -106,6 +106,7 @@ Json counts_json(const DriveRecord& record) {
   return {{"images_in_log", record.source.images_in_log},
           {"images_missing", record.source.images_missing},
           {"images_out_of_order", record.out_of_order},
+          {"images_repeated", record.repeated},
           {"frames", record.frames.size()},
           {"steps_ok", count_status(record, StepStatus::kOk)},
           {"steps_no_motion", count_status(record, StepStatus::kNoMotion)},

@@ -51,6 +51,8 @@ const char* to_string(PassedOver reason) {
       return "an image that is not there";
     case PassedOver::kOutOfOrder:
       return "an image not later than the one before";
+    case PassedOver::kRepeated:
+      return "an image that repeats the one before";
     case PassedOver::kUnstamped:
       return "a reading without time stamp";
     case PassedOver::kUnusable:
@@ -151,6 +153,7 @@ Intake ObservationIntake::read(const CameraView& view, const CameraView* right,
   if (right != nullptr && is_there(*right->pixels)) frame.baseline_m = baseline;
   frame.name = short_name(view, where);
   add_pixels(view, right, where, frame);
+  if (repeats_.repeats(frame.image.view())) return pass(PassedOver::kRepeated);
   last_time_ = frame.time_s;
   ++counts_.images;
   Intake intake;

@@ -76,9 +76,13 @@ TEST(ObservationIntake, CountsWhatItPassesOverByReason) {
   EXPECT_EQ(reason(imu), PassedOver::kUnstamped);
   imu.timestamp = mrpt::Clock::fromDouble(test::kStart);  // and no field is set
   EXPECT_EQ(reason(imu), PassedOver::kUnusable);
-  for (const std::size_t count : {0, 2, 4}) EXPECT_EQ(intake.counts().passed_over.at(count), 1U);
-  // Missing ones and late ones count as images of the camera.
-  EXPECT_EQ(frame_of(intake, *test::stored_image("CAM", 3.0, test::ramp(0))).index, 3U);
+  EXPECT_EQ(reason(*test::stored_image("CAM", 2.5, test::ramp(0))), PassedOver::kRepeated);
+  for (const PassedOver one : {PassedOver::kOtherClass, PassedOver::kMissing, PassedOver::kRepeated,
+                               PassedOver::kUnstamped}) {
+    EXPECT_EQ(intake.counts().of(one), 1U) << to_string(one);
+  }
+  // Missing ones, late ones and repeated ones count as images of the camera.
+  EXPECT_EQ(frame_of(intake, *test::stored_image("CAM", 3.0, test::ramp(1))).index, 4U);
 }
 
 TEST(ObservationIntake, GoesOnAfterARefusal) {
@@ -90,7 +94,7 @@ TEST(ObservationIntake, GoesOnAfterARefusal) {
   const auto unstamped = test::stored_image("CAM", 0.2, test::ramp(0));
   unstamped->timestamp = INVALID_TIMESTAMP;
   EXPECT_THROW(static_cast<void>(intake.take(*unstamped)), InputError);
-  EXPECT_TRUE(intake.take(*test::stored_image("CAM", 0.3, test::ramp(0))).frame);
+  EXPECT_TRUE(intake.take(*test::stored_image("CAM", 0.3, test::ramp(1))).frame);
 }
 
 TEST(ObservationIntake, GivesASpeedTheTimeOfItsEpoch) {

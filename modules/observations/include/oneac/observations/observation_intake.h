@@ -3,6 +3,7 @@
 #include "oneac/geometry/camera_frame.h"
 #include "oneac/observations/camera_reader.h"
 #include "oneac/observations/pose_watch.h"
+#include "oneac/observations/repeat_watch.h"
 #include "oneac/observations/sensor_readings.h"
 
 #include <array>
@@ -19,11 +20,12 @@ enum class PassedOver {
   kOtherSensor,  ///< of another camera, IMU or GPS receiver than the one that is followed
   kMissing,      ///< an image without pixels, or whose file is not there
   kOutOfOrder,   ///< an image not later than the one before
+  kRepeated,     ///< an image that repeats the one before, pixel by pixel
   kUnstamped,    ///< a reading of IMU or GPS without time stamp
   kUnusable,     ///< a reading of IMU or GPS that is void or damaged
   kNotNeeded,    ///< a sound reading without acceleration or speed: rates, a first position
 };
-inline constexpr std::size_t kReasons = 7;
+inline constexpr std::size_t kReasons = 8;
 /// "of another sensor": completes "observation passed over: it is …" or "has …".
 [[nodiscard]] const char* to_string(PassedOver reason);
 
@@ -86,6 +88,7 @@ class ObservationIntake {
   IntakeOptions options_;
   std::optional<CameraReader> reader_;
   PoseWatch poses_;
+  RepeatWatch repeats_;
   std::string camera_;  ///< CameraView::name() of the one that is followed
   std::optional<std::string> imu_, gps_;
   SpeedOverGround speeds_;
