@@ -118,6 +118,18 @@ TEST(ScaleFilter, TrustsAMapWithPoorLandmarksLess) {
   EXPECT_GT(factor(0.005), 1.035);  // a tight bend at walking pace
 }
 
+TEST(ScaleFilter, LosesMoreOfTheScaleInABend) {
+  const auto uncertainty = [](double turn) {
+    ScaleFilter filter{ScaleOptions{}};
+    static_cast<void>(filter.correct(1.0, 0.01));
+    for (int i = 0; i < 10; ++i) filter.drift(2.0, 0.0, 0.1 * turn);
+    return filter.uncertainty();
+  };
+  const double straight = uncertainty(0.0), bend = uncertainty(0.9), other = uncertainty(-0.9);
+  EXPECT_NEAR(std::sqrt(bend * bend - straight * straight), 0.057, 0.002) << "50 degrees";
+  EXPECT_EQ(bend, other);
+}
+
 TEST(ScaleFilter, SaysHowFarMeasurementsSpeakForTheScaleBefore) {
   ScaleOptions options;
   options.source = "stereo";  // no error that lasts

@@ -239,6 +239,22 @@ TEST(Scale, DoesNotBelieveALengthThatNeedsMoreThanTyres) {
   EXPECT_EQ(length.source, LengthSource::kHeld);
 }
 
+/// Stamps that a recorder made up: images are missing between them.
+TEST(Scale, InertiaAloneTellsNoMetresBesideImagesThatContradictIt) {
+  Scale scale = driving();
+  const StepLength doubted =
+      scale.length_of(step(StepStatus::kOk, 10.1, 1.0), {{2.0, 0.01, LengthSource::kRoad, 50}});
+  EXPECT_EQ(doubted.source, LengthSource::kHeld);
+  EXPECT_FALSE(doubted.metric);
+  EXPECT_EQ(doubted.sigma, 0.0);
+  const StepLength after = scale.length_of(step(StepStatus::kOk, 10.2, 1.0), {});
+  EXPECT_FALSE(after.metric) << "nobody has measured since";
+  const StepLength measured =
+      scale.length_of(step(StepStatus::kOk, 10.3, 1.0), {{1.02, 0.01, LengthSource::kRoad, 50}});
+  EXPECT_TRUE(measured.metric);
+  EXPECT_TRUE(scale.length_of(step(StepStatus::kOk, 10.4, 1.0), {}).metric) << "as before";
+}
+
 TEST(Scale, BelievesWhatContradictsTheSpeedForHalfASecond) {
   Scale scale = driving();
   StepLength length;
@@ -292,6 +308,26 @@ TEST(Scale, InertiaHelpsALengthThatIsTooUnsureToBeMetric) {
   EXPECT_LT(helped.length, 1.03);
   ASSERT_TRUE(helped.without_inertia.has_value());
   EXPECT_NEAR(helped.without_inertia->length, 1.05, 1e-9) << "the speed learns this alone";
+}
+
+/// The map's poses and landmarks stay of one scale while it is not known well enough.
+TEST(Scale, AMapThatIsUnsureGoesOnWithItsOwnLengths) {
+  Scale scale = mapped();
+  LengthMeasurement unsure = carried(1.0);
+  unsure.sigma = 0.02;
+  static_cast<void>(scale.length_of(step(StepStatus::kOk, 10.1, 1.0), {unsure}));
+  KeyframePair without_road = road(1.0, 1.0);
+  without_road.acs.clear();
+  static_cast<void>(scale.correct({without_road, {}}, {}, kFocal));
+  ASSERT_FALSE(scale.is_metric());
+  for (int i = 2; i <= 20; ++i) {
+    unsure.length = 1.0 + 0.03 * i;
+    const StepLength used = scale.length_of(step(StepStatus::kOk, 10.0 + 0.1 * i, 1.0), {unsure});
+    EXPECT_FALSE(used.metric && used.source == LengthSource::kMap);
+    if (i < 10) continue;  // the speed is still known better
+    EXPECT_EQ(used.length, unsure.length);
+    EXPECT_EQ(used.source, LengthSource::kMap);
+  }
 }
 
 TEST(Scale, CreepingDoesNotLoseTheScale) {

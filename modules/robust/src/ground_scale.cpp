@@ -3,6 +3,7 @@
 #include "oneac/base/check_bounds.h"
 #include "oneac/base/require.h"
 #include "oneac/geometry/angles.h"
+#include "oneac/geometry/driven_path.h"
 #include "oneac/geometry/homography.h"
 #include "oneac/geometry/robust_loss.h"
 #include "oneac/geometry/triangulation.h"
@@ -30,6 +31,7 @@ struct Candidate {
   Eigen::Vector3d X;
   double relative_sigma;  ///< of its depth, hence of its height
   double weight;          ///< how well its affinity fits a horizontal plane, 0 … 1
+  bool beside;            ///< the way turns off before it
 };
 
 /// Relative error of the depth: position noise over the shift that the translation causes.
@@ -54,6 +56,7 @@ std::vector<Candidate> ground_candidates(AcSpan acs, const std::vector<bool>& in
                                          const RelativePose& T, const Eigen::Matrix3d& L,
                                          double sigma, const GroundScaleOptions& options) {
   const Eigen::Vector3d down = L.row(1).transpose();  // levelled Y in the camera frame
+  const DrivenPath path(T, L);
   std::vector<Candidate> candidates;
   for (std::size_t i = 0; i < acs.size(); ++i) {
     if (!inliers[i]) continue;
@@ -62,11 +65,14 @@ std::vector<Candidate> ground_candidates(AcSpan acs, const std::vector<bool>& in
     const Eigen::Vector3d X = L * (point->z1 * acs[i].x1.homogeneous());
     if (!(X.y() > kSmallestHeight)) continue;
     if (X.z() > options.max_distance * X.y()) continue;
-    if (std::abs(X.x()) > options.max_side * X.y()) continue;
+    const double side = options.max_side * X.y();
+    if (std::abs(X.x()) > side) continue;
+    const auto middle = path.at(X.z());
+    const bool beside = !middle || std::abs(X.x() - *middle) > side;
     const double relative_sigma = depth_sigma(T, acs[i], point->z1, sigma);
     if (!(relative_sigma < 0.3)) continue;  // no parallax
     const double weight = affine_agreement(T, acs[i], down, X.y(), options.affine_tolerance);
-    if (weight > 0.01) candidates.push_back({X, relative_sigma, weight});
+    if (weight > 0.01) candidates.push_back({X, relative_sigma, weight, beside});
   }
   return candidates;
 }
@@ -94,6 +100,7 @@ struct RoadPlane {
   double d = 0.0, a = 0.0, b = 0.0;
   double variance = 0.0;         ///< of d by the assumed noise
   double variance_factor = 1.0;  ///< how much more the residuals scatter
+  double beside = 0.0;           ///< share of the support that the car does not drive on
   std::size_t support = 0;
 
   [[nodiscard]] double height_at(const Eigen::Vector3d& X) const {
@@ -114,7 +121,7 @@ RoadPlane fit_plane(const std::vector<Candidate>& candidates, double height,
     Eigen::Matrix3d H = prior.asDiagonal();
     Eigen::Vector3d g = Eigen::Vector3d::Zero();
     double chi2 = 0.0;
-    double weights = 0.0;
+    double weights = 0.0, beside = 0.0;
     plane.support = 0;
     for (const Candidate& c : candidates) {
       // Y, X, Z all scale with the depth, so the error of the residual is that of the depth times
@@ -127,6 +134,7 @@ RoadPlane fit_plane(const std::vector<Candidate>& candidates, double height,
       g += robust / (width * width) * row * c.X.y();
       chi2 += robust * z * z;
       weights += robust;
+      if (c.beside) beside += robust;
       if (std::abs(z) < kPlaneCut && c.weight > 0.3) ++plane.support;
     }
     factor.compute(H);
@@ -136,6 +144,7 @@ RoadPlane fit_plane(const std::vector<Candidate>& candidates, double height,
     plane.a = solution(1);
     plane.b = solution(2);
     plane.variance_factor = weights > 0.0 ? std::max(chi2 / weights, 0.1) : 1.0;
+    plane.beside = weights > 0.0 ? beside / weights : 0.0;
   }
   const Eigen::Matrix3d covariance = factor.solve(Eigen::Matrix3d::Identity());
   plane.variance = covariance(0, 0);
@@ -163,7 +172,8 @@ std::optional<GroundScale> ground_scale(AcSpan acs, const std::vector<bool>& inl
   if (!(distance > kSmallestHeight) || !std::isfinite(distance)) return std::nullopt;
   const double uncertainty = std::sqrt(plane.variance_factor * plane.variance) / plane.d;
   if (!(uncertainty < options.max_uncertainty)) return std::nullopt;
-  return GroundScale{T_2_1.t.norm() / distance, uncertainty, plane.support};
+  return GroundScale{T_2_1.t.norm() / distance,
+                     std::hypot(uncertainty, DrivenPath::kKerb * plane.beside), plane.support};
 }
 
 }  // namespace oneac

@@ -93,7 +93,7 @@ TEST(GroundScale, KeepsTheLengthOverASlope) {
 
 TEST(GroundScale, LeavesOutTheFootway) {
   SceneGenerator scene(37);
-  const RelativePose T = forward(0.8);
+  const RelativePose T{Eigen::Matrix3d::Identity(), {0.0, 0.0, -0.8}};
   const auto road = plane_induced_homography(T, {Eigen::Vector3d::UnitY(), 1.0});
   const auto footway = plane_induced_homography(T, {Eigen::Vector3d::UnitY(), 0.92});
   std::vector<AffineCorrespondence> acs;
@@ -106,6 +106,28 @@ TEST(GroundScale, LeavesOutTheFootway) {
                                   kLevel, kSigma, {});
   ASSERT_TRUE(scale.has_value());
   EXPECT_NEAR(scale->baseline / T.t.norm(), 1.0, 0.005);
+}
+
+/// A camera that turns at a junction looks across the kerb: its own way lies beside the axis.
+TEST(GroundScale, IsLessSureInABendOfWhatTheCarDoesNotDriveOn) {
+  const auto seen = [](double turn) {
+    SceneGenerator scene(39);
+    const RelativePose T{yaw_rotation(std::cos(turn), std::sin(turn)),
+                         0.5 * Eigen::Vector3d(std::sin(0.5 * turn), 0.0, -std::cos(0.5 * turn))};
+    const auto road = plane_induced_homography(T, {Eigen::Vector3d::UnitY(), 1.0});
+    std::vector<AffineCorrespondence> acs;
+    while (acs.size() < 200) {
+      acs.push_back(*correspondence_from_homography(road, scene.image_point(0.1, 0.3)));
+    }
+    return ground_scale(acs, std::vector<bool>(acs.size(), true), with_unit_length(T), kLevel,
+                        kSigma, {});
+  };
+  const auto straight = seen(0.0), wide = seen(0.01), tight = seen(0.1);  // ∞, 50, 5 heights
+  ASSERT_TRUE(straight && wide && tight);
+  EXPECT_LT(straight->uncertainty, 0.01);
+  EXPECT_NEAR(wide->uncertainty, straight->uncertainty, 0.005);
+  EXPECT_GT(tight->uncertainty, 0.04) << "a kerb of 12 cm under 1.5 m makes 8 %";
+  EXPECT_NEAR(tight->baseline, 0.5, 0.005) << "but it is no other length";
 }
 
 /// One sees the road on one side only, e.g. beside parked cars.

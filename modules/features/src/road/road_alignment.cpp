@@ -7,6 +7,7 @@
 
 #include "oneac/base/check_bounds.h"
 #include "oneac/base/require.h"
+#include "oneac/geometry/driven_path.h"
 
 #include <Eigen/Geometry>
 #include <Eigen/LU>
@@ -93,10 +94,32 @@ RelativePose fitted_pose(const RoadMotion& motion, bool forward) {
   return {motion.R_b_a, -motion.length * motion.s};
 }
 
-void take_fit(const Problem& problem, const RoadFit& fit, const RoadAlignmentOptions& options,
-              RoadAlignment& result) {
+/// The way of the car as far as its length is predicted; else straight ahead.
+DrivenPath expected_path(const RoadStep& step) {
+  constexpr double kTellingLength = 0.05;  // [heights] a shorter step turns by noise
+  const bool known = step.length > kTellingLength && step.length_sigma < 0.5 * step.length;
+  if (!known) return {};
+  return {{step.T_2_1.R, step.length * step.T_2_1.t.normalized()}, step.R_level_cam};
+}
+
+/// Share of the evidence from road that the car does not drive on: its way turns off before.
+double share_beside(const RoadFit& fit, const RoadGrid& grid, const DrivenPath& path,
+                    double half_width) {
+  double weights = 0.0, beside = 0.0;
+  for (std::size_t i = 0; i < kBlocks; ++i) {
+    const double x = half_width * (2.0 * (static_cast<double>(i % kLanes) + 0.5) / kLanes - 1.0);
+    const auto middle = path.at(grid.distance[i]);
+    weights += fit.weight[i];
+    if (!middle || std::abs(x - *middle) > half_width) beside += fit.weight[i];
+  }
+  return weights > 0.0 ? beside / weights : 0.0;
+}
+
+void take_fit(const Problem& problem, const RoadFit& fit, double beside,
+              const RoadAlignmentOptions& options, RoadAlignment& result) {
   result.length = fit.motion.length;
-  const double floor = options.height_sigma * fit.motion.length;
+  const double floor =
+      std::hypot(options.height_sigma, DrivenPath::kKerb * beside) * fit.motion.length;
   result.sigma = std::sqrt(std::max(fit.covariance(0, 0), 0.0) * fit.scatter + floor * floor);
   result.relative_sigma = result.length > 0.0 ? result.sigma / result.length : 0.0;
   result.T_2_1 = fitted_pose(fit.motion, problem.forward);
@@ -193,8 +216,10 @@ RoadAlignment align(const Problem& problem, const RoadStep& step,
   if (peaks.empty()) return result;
   const auto candidates = candidates_at(problem, grid, coarsest, peaks, range.step, options);
   result.status = judge(candidates, range, options, result);
-  if (result.status == RoadStatus::kMeasured)
-    take_fit(problem, candidates.front().fit, options, result);
+  if (result.status != RoadStatus::kMeasured) return result;
+  const RoadFit& fit = candidates.front().fit;
+  take_fit(problem, fit, share_beside(fit, grid, expected_path(step), options.half_width), options,
+           result);
   return result;
 }
 

@@ -89,10 +89,12 @@ StepLength Scale::decided(const StepInTime& step,
   if (const StepLength direct = by_itself(step); direct.metric) told.push_back(direct);
   const StepLength result = chosen(told, step);
   if (result.metric) return result;
-  // The unit of a map without scale goes on while nobody knows a speed in metres.
-  const bool unscaled_map =
-      !told.empty() && told.front().source == LengthSource::kMap && !filter_.is_metric();
-  if (unscaled_map && !inertia_.expect(step.begin_s, step.end_s)) {
+  // A map that is too unsure to be called metric still knows better than inertia does after a
+  // while, and its landmarks and its poses stay of one scale.
+  const auto expected = inertia_.expect(step.begin_s, step.end_s);
+  const bool unsure_map = !result.refused && !told.empty() && !filter_.is_metric() &&
+                          told.front().source == LengthSource::kMap;
+  if (unsure_map && (!expected || told.front().sigma_m < expected->sigma)) {
     StepLength unscaled = told.front();
     unscaled.sigma = unscaled.sigma_m = 0.0;
     return unscaled;

@@ -5,6 +5,8 @@
 
 #include "oneac/frontend/front_end_options.h"
 
+#include <Eigen/Geometry>
+
 #include <cmath>
 #include <utility>
 
@@ -25,6 +27,14 @@ LengthSource source_of_metres(const ScaleOptions& options) {
   if (options.source == "height") return LengthSource::kRoad;
   if (options.source == "stereo") return LengthSource::kStereo;
   return options.source == "gps" ? LengthSource::kSpeed : LengthSource::kNone;
+}
+
+/// Inertia goes on where it does not allow what images or road tell in metres: one of the two is
+/// wrong, or the stamps are, and nothing says which.
+StepLength without_metres(StepLength length) {
+  length.metric = false;
+  length.sigma = length.sigma_m = 0.0;
+  return length;
 }
 
 }  // namespace
@@ -98,7 +108,7 @@ StepLength Scale::length_of(const StepInTime& step,
   }
   speeds_.add_step(step.end_s, result.length);
   remember(step, result);
-  return result;
+  return doubted_ ? without_metres(result) : result;
 }
 
 void Scale::Carried::add(double length, double relative_sigma) {
@@ -120,6 +130,7 @@ void Scale::remember(const StepInTime& step, const StepLength& length) {
   inertia_.tick(step.begin_s, step.end_s);
   if (step.status == StepStatus::kOk) moved_ = true;
   const bool measured = length.metric && length.source != LengthSource::kHeld;
+  doubted_ = !measured && (doubted_ || length.refused);
   if (step.direct) conflicts_ = length.conflict ? conflicts_ + 1 : 0;
   if (length.source != LengthSource::kHeld || length.metric)
     contradicted_ = 0;
@@ -149,7 +160,8 @@ void Scale::remember(const StepInTime& step, const StepLength& length) {
 ScaleCorrection Scale::correct(const MapLengths& map, const Levelling& first, double focal_px) {
   ScaleCorrection correction;
   const double way = map.newest.T_2_1.t.norm();
-  correction.share = filter_.drift(way, std::exchange(carried_, {}).variance());
+  const double turn = Eigen::AngleAxisd(map.newest.T_2_1.R).angle();
+  correction.share = filter_.drift(way, std::exchange(carried_, {}).variance(), turn);
   for (const ScaleMeasurement& told : measure(map, first, focal_px)) {
     correction.factor *= filter_.correct(told.ratio, told.sigma);
     if (filter_.began_anew()) correction.share = 0.0;  // what is new says nothing of the past

@@ -163,6 +163,7 @@ class Scale {
   int unchecked_ = 0;             ///< steps since the road's grey values were asked
   int conflicts_ = 0;             ///< steps in a row in which road and map disagreed
   int contradicted_ = 0;          ///< steps in a row in which nobody agreed with inertia
+  bool doubted_ = false;  ///< somebody told metres that inertia does not allow, and nobody since
 };
 
 }  // namespace oneac

@@ -19,9 +19,10 @@ class ScaleFilter {
   /// A keyframe more: the scale may have drifted.
   /// @param way               [m] driven since the last one
   /// @param carried_variance  relative, of the lengths that landmarks carried since then
+  /// @param turn              [rad] since the last one
   /// @return  how far what is measured from now on speaks for the scale before: the regression of
   ///          the old state on the new one, P / (P + Q); 1 while nothing is known
-  double drift(double way, double carried_variance);
+  double drift(double way, double carried_variance, double turn = 0.0);
   /// The map lost its scale (nothing was carried over); the next measurement sets it.
   void lose();
   /// A measurement of true length over map length, with its relative 1σ.

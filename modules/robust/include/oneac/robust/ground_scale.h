@@ -49,7 +49,8 @@ void describe(Visitor&& visit, GroundScaleOptions& o) {
 /// What the road says about the length of one step.
 struct GroundScale {
   double baseline = 0.0;     ///< |t| in camera heights
-  double uncertainty = 0.0;  ///< relative 1σ of it, from the spread of the support
+  double uncertainty = 0.0;  ///< relative 1σ of it, from the spread of the support, and from a
+                             ///< kerb where a bend looks at what the car does not drive on
   std::size_t support = 0;   ///< correspondences on the ground plane
 };
 
