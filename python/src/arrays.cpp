@@ -26,14 +26,14 @@ bool matches(const Shape& have, const Shape& want) {
                               want);
 }
 
-/// Whether any of them is NaN or infinite: a loop that the compiler makes wide.
+/// Whether any of them is NaN or infinite: v − v has no bit set otherwise. Wide without a branch.
 bool any_not_finite(const double* values, std::size_t count) {
-  constexpr std::uint64_t kExponent = 0x7ff0000000000000ULL;
   std::uint64_t bad = 0;
   for (std::size_t i = 0; i < count; ++i) {
+    const double zero = values[i] - values[i];
     std::uint64_t bits = 0;
-    std::memcpy(&bits, values + i, sizeof bits);
-    bad |= static_cast<std::uint64_t>((bits & kExponent) == kExponent);
+    std::memcpy(&bits, &zero, sizeof bits);
+    bad |= bits;
   }
   return bad != 0;
 }
@@ -184,7 +184,6 @@ void AcInput::require_finite(std::size_t first, std::size_t count) const {
 }
 
 void AcInput::load(std::size_t first, std::size_t count, AffineCorrespondence* acs) const {
-  require_finite(first, count);
   using RowMajor2 = Eigen::Matrix<double, 2, 2, Eigen::RowMajor>;
   for (std::size_t i = 0; i < count; ++i) {
     const std::size_t at = first + i;
@@ -196,6 +195,7 @@ void AcInput::load(std::size_t first, std::size_t count, AffineCorrespondence* a
 
 std::vector<AffineCorrespondence> AcInput::all() const {
   std::vector<AffineCorrespondence> acs(size_);
+  require_finite(0, size_);
   load(0, size_, acs.data());
   return acs;
 }

@@ -69,11 +69,11 @@ class AcInput {
   [[nodiscard]] const double* x2() const { return x2_; }
   /// Null for bare points.
   [[nodiscard]] const double* A() const { return A_; }
-  /// Copies from entry `first` on. @throws std::invalid_argument naming what is not finite
+  /// Copies from entry `first` on; they are as finite as require_finite() says.
   void load(std::size_t first, std::size_t count, AffineCorrespondence* acs) const;
-  /// All of them. @throws as load()
+  /// All of them. @throws as require_finite()
   [[nodiscard]] std::vector<AffineCorrespondence> all() const;
-  /// Names the first number that is not finite, if any. @throws std::invalid_argument
+  /// @throws std::invalid_argument naming the first number of these that is not finite
   void require_finite(std::size_t first, std::size_t count) const;
 
  private:

@@ -197,6 +197,9 @@ std::unique_ptr<LiveFrontEnd> front_end_from(const py::object& camera,
   set_parameters(values, "", table);
   options.seed = seed;
   options.mount_convention = "optical";
+  if (!camera.is_none() && !py::isinstance<PinholeCamera>(camera)) {
+    throw std::invalid_argument("camera must be an oneac.Camera");
+  }
   if (!camera.is_none()) options.calibration = py::cast<PinholeCamera>(camera);
   options.validate();
   const Eigen::Isometry3d mount = T_vehicle_cam.is_none() ? CameraFrame::forward_looking_mount()

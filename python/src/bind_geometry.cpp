@@ -106,6 +106,7 @@ py::tuple normalise_arrays(const py::object& u1, const py::object& u2, const py:
   const PinholeCamera first = camera_of(K1, "K1");
   const PinholeCamera second = K2.is_none() ? first : camera_of(K2, "K2");
   const AcInput input(u1, u2, A, false);
+  input.require_finite(0, input.size());
   AcOutput output(input);
   AffineCorrespondence ac;
   for (std::size_t i = 0; i < input.size(); ++i) {
@@ -120,6 +121,7 @@ py::tuple rotate_arrays(const py::object& x1, const py::object& x2, const py::ob
   const Eigen::Matrix3d first = rotation(Q1, "Q1");
   const Eigen::Matrix3d second = Q2.is_none() ? first : rotation(Q2, "Q2");
   const AcInput input(x1, x2, A, false);
+  input.require_finite(0, input.size());
   AcOutput output(input);
   AffineCorrespondence ac;
   for (std::size_t i = 0; i < input.size(); ++i) {

@@ -17,6 +17,8 @@ namespace {
 using Counts = py::array_t<std::int64_t, py::array::c_style>;
 using Flags = py::array_t<bool, py::array::c_style>;
 
+constexpr std::size_t kBlock = 512;  // correspondences: 32 kB, which the first cache holds
+
 /// One sample (…, or a point alone where one is enough), or many of them.
 struct Samples {
   bool stacked;       ///< many
@@ -42,7 +44,11 @@ struct PoseArrays {
       : R(shape_for(samples, capacity, {3, 3})),
         t(shape_for(samples, capacity, {3})),
         n(shape_for(samples, capacity, {3})),
-        count(samples.stacked ? Shape{static_cast<py::ssize_t>(samples.count)} : Shape{}) {}
+        count(shape_of_count(samples)) {}
+
+  static Shape shape_of_count(const Samples& samples) {
+    return samples.stacked ? Shape{static_cast<py::ssize_t>(samples.count)} : Shape{};
+  }
 
   static Shape shape_for(const Samples& samples, std::size_t capacity,
                          std::initializer_list<py::ssize_t> more) {
@@ -69,14 +75,14 @@ struct PoseMemory {
   /// Writes a sample's poses; what is left of its `capacity` rows becomes no motion.
   void put(std::size_t sample, std::size_t capacity, const PoseSet& poses) const {
     count[sample] = static_cast<std::int64_t>(poses.size());
-    for (std::size_t i = 0; i < capacity; ++i) {
-      static const PlanePose kNone{{}, Eigen::Vector3d::Zero()};
-      const PlanePose& pose = i < poses.size() ? poses[i] : kNone;
-      const std::size_t at = sample * capacity + i;
-      put_matrix3(pose.motion.R, R + 9 * at);
-      std::copy_n(pose.motion.t.data(), 3, t + 3 * at);
-      std::copy_n(pose.n.data(), 3, n + 3 * at);
-    }
+    std::size_t at = sample * capacity;
+    for (const PlanePose& pose : poses) put_row(at++, pose.motion, pose.n);
+    while (at < (sample + 1) * capacity) put_row(at++, {}, Eigen::Vector3d::Zero());
+  }
+  void put_row(std::size_t at, const RelativePose& motion, const Eigen::Vector3d& normal) const {
+    put_matrix3(motion.R, R + 9 * at);
+    std::copy_n(motion.t.data(), 3, t + 3 * at);
+    std::copy_n(normal.data(), 3, n + 3 * at);
   }
 
   double *R, *t, *n;
@@ -96,24 +102,38 @@ py::object poses_of_one(const PoseSet& poses) {
   return arrays.to_python();
 }
 
+/// Calls `take(sample's number, its correspondences)` for each sample.
+template <class Take>
+void for_each_sample(const Solver& solver, const AcInput& acs, std::size_t samples, Take&& take) {
+  std::array<AffineCorrespondence, kLargestSample> sample;
+  for (std::size_t first = 0; first < samples; first += kBlock) {
+    const std::size_t count = std::min(kBlock, samples - first);
+    acs.require_finite(first * solver.sample, count * solver.sample);
+    for (std::size_t i = first; i < first + count; ++i) {
+      acs.load(i * solver.sample, solver.sample, sample.data());
+      take(i, AcSpan(sample.data(), solver.sample));
+    }
+  }
+}
+
 py::object solve(const Solver& solver, const py::object& x1, const py::object& x2,
                  const py::object& A) {
   const AcInput acs(x1, x2, A, solver.affine);
   const Samples samples = samples_of(acs, solver);
-  std::array<AffineCorrespondence, kLargestSample> sample;
   if (!samples.stacked) {
-    acs.load(0, solver.sample, sample.data());
-    return poses_of_one(solver.run.poses(AcSpan(sample.data(), solver.sample)));
+    PoseSet poses;
+    for_each_sample(solver, acs, 1,
+                    [&](std::size_t, AcSpan sample) { poses = solver.run.poses(sample); });
+    return poses_of_one(poses);
   }
   const std::size_t capacity = capacity_of(solver);
   PoseArrays arrays(samples, capacity);
   const PoseMemory memory(arrays);
   {
     const py::gil_scoped_release release;
-    for (std::size_t i = 0; i < samples.count; ++i) {
-      acs.load(i * solver.sample, solver.sample, sample.data());
-      memory.put(i, capacity, solver.run.poses(AcSpan(sample.data(), solver.sample)));
-    }
+    for_each_sample(solver, acs, samples.count, [&](std::size_t i, AcSpan sample) {
+      memory.put(i, capacity, solver.run.poses(sample));
+    });
   }
   return arrays.to_python();
 }
@@ -122,23 +142,20 @@ py::tuple essentials(const Solver& solver, const py::object& x1, const py::objec
                      const py::object& A) {
   const AcInput acs(x1, x2, A, solver.affine);
   const Samples samples = samples_of(acs, solver);
-  const std::size_t capacity = std::min(capacity_of(solver), EssentialSet::kCapacity);
+  const std::size_t capacity = capacity_of(solver);
   Doubles E(PoseArrays::shape_for(samples, capacity, {3, 3}));
-  Counts count(samples.stacked ? Shape{static_cast<py::ssize_t>(samples.count)} : Shape{});
-  double* matrices = E.mutable_data();
+  Counts count(PoseArrays::shape_of_count(samples));
+  double* matrix = E.mutable_data();
   std::int64_t* counts = count.mutable_data();
   {
     const py::gil_scoped_release release;
-    std::array<AffineCorrespondence, kLargestSample> sample;
-    for (std::size_t i = 0; i < samples.count; ++i) {
-      acs.load(i * solver.sample, solver.sample, sample.data());
-      const EssentialSet found = solver.run.essentials(AcSpan(sample.data(), solver.sample));
+    for_each_sample(solver, acs, samples.count, [&](std::size_t i, AcSpan sample) {
+      const EssentialSet found = solver.run.essentials(sample);
       counts[i] = static_cast<std::int64_t>(found.size());
-      for (std::size_t k = 0; k < capacity; ++k) {
-        put_matrix3(k < found.size() ? found[k] : Eigen::Matrix3d::Zero().eval(),
-                    matrices + 9 * (i * capacity + k));
+      for (std::size_t k = 0; k < capacity; ++k, matrix += 9) {
+        put_matrix3(k < found.size() ? found[k] : Eigen::Matrix3d(Eigen::Matrix3d::Zero()), matrix);
       }
-    }
+    });
   }
   return py::make_tuple(E, count);
 }
@@ -162,38 +179,41 @@ py::object least_squares(const Solver& solver, const py::object& x1, const py::o
   return poses_of_one(poses);
 }
 
-constexpr std::size_t kBlock = 512;  // correspondences: 32 kB, which the first cache holds
-
 /// A block of correspondences turned into one array per number.
-struct Block {
-  std::array<std::array<double, kBlock>, 8> columns;
-
+class Block {
+ public:
   AcArrays take(const AcInput& acs, std::size_t first, std::size_t count) {
     acs.require_finite(first, count);
-    const double *x1 = acs.x1() + 2 * first, *x2 = acs.x2() + 2 * first, *A = acs.A() + 4 * first;
-    for (std::size_t i = 0; i < count; ++i) {
-      for (std::size_t k = 0; k < 2; ++k) columns[k][i] = x1[2 * i + k];
-      for (std::size_t k = 0; k < 2; ++k) columns[2 + k][i] = x2[2 * i + k];
-      for (std::size_t k = 0; k < 4; ++k) columns[4 + k][i] = A[4 * i + k];
-    }
-    const auto column = [this](std::size_t k) { return columns[k].data(); };
+    split<2>(acs.x1() + 2 * first, count, 0);
+    split<2>(acs.x2() + 2 * first, count, 2);
+    split<4>(acs.A() + 4 * first, count, 4);
+    const auto column = [this](std::size_t k) { return columns_[k].data(); };
     return {column(0), column(1), column(2), column(3), column(4),
             column(5), column(6), column(7), count};
   }
+
+ private:
+  template <std::size_t kWidth>
+  void split(const double* rows, std::size_t count, std::size_t first_column) {
+    for (std::size_t k = 0; k < kWidth; ++k) {
+      double* column = columns_[first_column + k].data();
+      for (std::size_t i = 0; i < count; ++i) column[i] = rows[kWidth * i + k];
+    }
+  }
+
+  std::array<std::array<double, kBlock>, 8> columns_;
 };
 
 void solve_one_by_one(const Solver& solver, const AcInput& acs, const PlanarPoseArrays& poses) {
-  AffineCorrespondence ac;
-  for (std::size_t i = 0; i < acs.size(); ++i) {
-    acs.load(i, 1, &ac);
-    const PlanarPoseSet found = solver.run.planar(ac);
+  for_each_sample(solver, acs, acs.size(), [&](std::size_t i, AcSpan sample) {
+    const PlanarPoseSet found = solver.run.planar(sample[0]);
     const PlanarPose pose = found.empty() ? PlanarPose{} : found[0];
     poses.cos_alpha[i] = pose.cos_alpha;
     poses.sin_alpha[i] = pose.sin_alpha;
     poses.tx[i] = pose.tx;
     poses.tz[i] = pose.tz;
     poses.valid[i] = static_cast<std::uint8_t>(!found.empty());
-  }
+  });
 }
 
 void solve_in_blocks(const Solver& solver, const AcInput& acs, const PlanarPoseArrays& poses) {
