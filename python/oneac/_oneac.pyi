@@ -195,7 +195,7 @@ class Rawlog:
         log: _Path,
         *,
         camera: str = ...,
-        images_dir: _Path = ...,
+        images_dir: _Path | None = ...,
         calibration: str | Camera | None = ...,
         first: int = ...,
         count: int = ...,

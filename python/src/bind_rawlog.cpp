@@ -43,13 +43,13 @@ class Rawlog {
 };
 
 std::unique_ptr<Rawlog> open(const std::filesystem::path& log, const std::string& camera,
-                             const std::filesystem::path& images_dir, const py::object& calibration,
-                             std::size_t first, std::size_t count, std::size_t every, bool stereo,
-                             const std::string& convention) {
+                             const std::optional<std::filesystem::path>& images_dir,
+                             const py::object& calibration, std::size_t first, std::size_t count,
+                             std::size_t every, bool stereo, const std::string& convention) {
   SourceOptions options;
   options.log = log;
   options.camera = camera;
-  options.images_dir = images_dir;
+  if (images_dir) options.images_dir = *images_dir;
   options.mount_convention = convention;
   options.first = first;
   options.count = count;
@@ -136,7 +136,7 @@ void bind_frame(py::module_& m) {
 void bind_log(py::module_& m) {
   py::class_<Rawlog>(m, "Rawlog", "The images of one camera of an MRPT rawlog, in log order.")
       .def(py::init(&open), py::arg("log"), py::kw_only(), py::arg("camera") = "",
-           py::arg("images_dir") = std::filesystem::path(), py::arg("calibration") = py::none(),
+           py::arg("images_dir") = py::none(), py::arg("calibration") = py::none(),
            py::arg("first") = 0, py::arg("count") = 0, py::arg("every") = 1,
            py::arg("stereo") = false, py::arg("mount_convention") = "auto",
            "As the flags of `oneac run`; calibration: FILE[:SECTION] or a Camera. Streams: memory\n"

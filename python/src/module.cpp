@@ -7,8 +7,9 @@
 namespace oneac::python {
 
 void bind_errors(pybind11::module_& m) {
-  pybind11::register_exception<InputError>(m, "InputError", PyExc_ValueError).doc() =
-      "Input that cannot be used: one line with where, fault and cure. A ValueError.";
+  auto& error = pybind11::register_exception<InputError>(m, "InputError", PyExc_ValueError);
+  error.doc() = "Input that cannot be used: one line with where, fault and cure. A ValueError.";
+  error.attr("__module__") = "oneac";
   m.def("version", &version, "Release and commit, as oneac --version prints them.");
 }
 
