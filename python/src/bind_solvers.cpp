@@ -1,6 +1,8 @@
 // Every row of the list of solvers (solvers/registry.h), on arrays.
 #include "arrays.h"
 #include "bindings.h"
+#include "planar_forms.h"
+#include "pose_arrays.h"
 #include "solver_text.h"
 
 #include "oneac/solvers/registry.h"
@@ -14,16 +16,7 @@
 namespace oneac::python {
 namespace {
 
-using Counts = py::array_t<std::int64_t, py::array::c_style>;
 using Flags = py::array_t<bool, py::array::c_style>;
-
-constexpr std::size_t kBlock = 512;  // correspondences: 32 kB, which the first cache holds
-
-/// One sample (…, or a point alone where one is enough), or many of them.
-struct Samples {
-  bool stacked;       ///< many
-  std::size_t count;  ///< of samples
-};
 
 Samples samples_of(const AcInput& acs, const Solver& solver) {
   Shape shape = acs.shape();
@@ -37,57 +30,6 @@ Samples samples_of(const AcInput& acs, const Solver& solver) {
   if (shape.size() > 1) throw std::invalid_argument(fault_of_samples(solver, given));
   return {!shape.empty(), shape.empty() ? 1 : static_cast<std::size_t>(shape[0])};
 }
-
-/// Room for `capacity` poses per sample.
-struct PoseArrays {
-  PoseArrays(const Samples& samples, std::size_t capacity)
-      : R(shape_for(samples, capacity, {3, 3})),
-        t(shape_for(samples, capacity, {3})),
-        n(shape_for(samples, capacity, {3})),
-        count(shape_of_count(samples)) {}
-
-  static Shape shape_of_count(const Samples& samples) {
-    return samples.stacked ? Shape{static_cast<py::ssize_t>(samples.count)} : Shape{};
-  }
-
-  static Shape shape_for(const Samples& samples, std::size_t capacity,
-                         std::initializer_list<py::ssize_t> more) {
-    Shape shape;
-    if (samples.stacked) shape.push_back(static_cast<py::ssize_t>(samples.count));
-    shape.push_back(static_cast<py::ssize_t>(capacity));
-    shape.insert(shape.end(), more);
-    return shape;
-  }
-  [[nodiscard]] py::object to_python() const { return result_class("Poses")(R, t, n, count); }
-
-  Doubles R, t, n;
-  Counts count;
-};
-
-/// The arrays' memory, for use without the interpreter.
-struct PoseMemory {
-  explicit PoseMemory(PoseArrays& arrays)
-      : R(arrays.R.mutable_data()),
-        t(arrays.t.mutable_data()),
-        n(arrays.n.mutable_data()),
-        count(arrays.count.mutable_data()) {}
-
-  /// Writes a sample's poses; what is left of its `capacity` rows becomes no motion.
-  void put(std::size_t sample, std::size_t capacity, const PoseSet& poses) const {
-    count[sample] = static_cast<std::int64_t>(poses.size());
-    std::size_t at = sample * capacity;
-    for (const PlanePose& pose : poses) put_row(at++, pose.motion, pose.n);
-    while (at < (sample + 1) * capacity) put_row(at++, {}, Eigen::Vector3d::Zero());
-  }
-  void put_row(std::size_t at, const RelativePose& motion, const Eigen::Vector3d& normal) const {
-    put_matrix3(motion.R, R + 9 * at);
-    std::copy_n(motion.t.data(), 3, t + 3 * at);
-    std::copy_n(normal.data(), 3, n + 3 * at);
-  }
-
-  double *R, *t, *n;
-  std::int64_t* count;
-};
 
 std::size_t capacity_of(const Solver& solver) {
   return std::min<std::size_t>(static_cast<std::size_t>(solver.run.max_candidates) *
@@ -131,9 +73,13 @@ py::object solve(const Solver& solver, const py::object& x1, const py::object& x
   const PoseMemory memory(arrays);
   {
     const py::gil_scoped_release release;
-    for_each_sample(solver, acs, samples.count, [&](std::size_t i, AcSpan sample) {
-      memory.put(i, capacity, solver.run.poses(sample));
-    });
+    if (solver.batch != nullptr) {
+      solve_in_blocks(solver, acs, memory);
+    } else {
+      for_each_sample(solver, acs, samples.count, [&](std::size_t i, AcSpan sample) {
+        memory.put(i, capacity, solver.run.poses(sample));
+      });
+    }
   }
   return arrays.to_python();
 }
@@ -179,57 +125,9 @@ py::object least_squares(const Solver& solver, const py::object& x1, const py::o
   return poses_of_one(poses);
 }
 
-/// A block of correspondences turned into one array per number.
-class Block {
- public:
-  AcArrays take(const AcInput& acs, std::size_t first, std::size_t count) {
-    acs.require_finite(first, count);
-    split<2>(acs.x1() + 2 * first, count, 0);
-    split<2>(acs.x2() + 2 * first, count, 2);
-    split<4>(acs.A() + 4 * first, count, 4);
-    const auto column = [this](std::size_t k) { return columns_[k].data(); };
-    return {column(0), column(1), column(2), column(3), column(4),
-            column(5), column(6), column(7), count};
-  }
-
- private:
-  template <std::size_t kWidth>
-  void split(const double* rows, std::size_t count, std::size_t first_column) {
-    for (std::size_t k = 0; k < kWidth; ++k) {
-      double* column = columns_[first_column + k].data();
-      for (std::size_t i = 0; i < count; ++i) column[i] = rows[kWidth * i + k];
-    }
-  }
-
-  std::array<std::array<double, kBlock>, 8> columns_;
-};
-
-void solve_one_by_one(const Solver& solver, const AcInput& acs, const PlanarPoseArrays& poses) {
-  for_each_sample(solver, acs, acs.size(), [&](std::size_t i, AcSpan sample) {
-    const PlanarPoseSet found = solver.run.planar(sample[0]);
-    const PlanarPose pose = found.empty() ? PlanarPose{} : found[0];
-    poses.cos_alpha[i] = pose.cos_alpha;
-    poses.sin_alpha[i] = pose.sin_alpha;
-    poses.tx[i] = pose.tx;
-    poses.tz[i] = pose.tz;
-    poses.valid[i] = static_cast<std::uint8_t>(!found.empty());
-  });
-}
-
-void solve_in_blocks(const Solver& solver, const AcInput& acs, const PlanarPoseArrays& poses) {
-  Block block;
-  for (std::size_t first = 0; first < acs.size(); first += kBlock) {
-    const AcArrays arrays = block.take(acs, first, std::min(kBlock, acs.size() - first));
-    solver.batch(arrays,
-                 {poses.cos_alpha + first, poses.sin_alpha + first, poses.tx + first,
-                  poses.tz + first, poses.valid + first},
-                 best_simd_level());
-  }
-}
-
 py::object planar(const Solver& solver, const py::object& x1, const py::object& x2,
                   const py::object& A) {
-  if (solver.run.planar == nullptr || solver.run.max_candidates > 1) {
+  if (!has_planar(solver)) {
     throw std::invalid_argument(std::string(solver.name) +
                                 " does not give one planar motion per correspondence");
   }
@@ -247,8 +145,7 @@ py::object planar(const Solver& solver, const py::object& x1, const py::object& 
                                reinterpret_cast<std::uint8_t*>(valid.mutable_data())};
   {
     const py::gil_scoped_release release;
-    const bool together = solver.batch != nullptr && acs.A() != nullptr;
-    (together ? solve_in_blocks : solve_one_by_one)(solver, acs, poses);
+    solve_planar(solver, acs, poses);
   }
   return result_class("PlanarPoses")(cos_alpha, sin_alpha, tx, tz, valid);
 }
@@ -269,9 +166,7 @@ void bind_row_class(py::module_& m) {
       .def_property_readonly("max_poses", &capacity_of)
       .def_property_readonly("has_least_squares",
                              [](const Solver& s) { return s.run.least_squares != nullptr; })
-      .def_property_readonly(
-          "has_planar",
-          [](const Solver& s) { return s.run.planar != nullptr && s.run.max_candidates == 1; })
+      .def_property_readonly("has_planar", &has_planar)
       .def_property_readonly("doc", &docstring_of)
       .def("solve", &solve, py::arg("x1"), py::arg("x2"), py::arg("A") = py::none(),
            "The function of the solver's name: poses of one sample or of many.")
