@@ -14,8 +14,8 @@ macro(oneac_find_python variable)
     if(Python_FOUND AND pybind11_FOUND AND NOT oneac_no_numpy)
       set(${variable} ON)
     elseif(ONEAC_PYTHON STREQUAL "AUTO")
-      message(STATUS "Python's headers, numpy or pybind11 not found (python3-dev, python3-numpy, pybind11-dev): "
-                     "the Python package is not built")
+      message(STATUS "Python's headers, numpy or pybind11 not found (python3-dev, python3-numpy, "
+                     "pybind11-dev): the Python package is not built")
     else()
       message(FATAL_ERROR "ONEAC_PYTHON needs python3-dev, python3-numpy and pybind11-dev")
     endif()
@@ -35,13 +35,14 @@ macro(oneac_find_python_parts)
   endif()
 endmacro()
 
-# oneac_install_python(PACKAGE FILE...): the extension and these files of the built package, where the
-# system's Python looks: dist-packages of Debian below /usr, of this Python elsewhere.
+# oneac_install_python(PACKAGE FILE...): the extension and these files of the built package, where
+# the system's Python looks: dist-packages of Debian below /usr, of this Python elsewhere.
 function(oneac_install_python package)
+  set(own python${Python_VERSION_MAJOR}.${Python_VERSION_MINOR})
   install(CODE "if(CMAKE_INSTALL_PREFIX STREQUAL \"/usr\")
   set(ONEAC_PYTHON_FOLDER lib/python3/dist-packages/oneac)
 else()
-  set(ONEAC_PYTHON_FOLDER lib/python${Python_VERSION_MAJOR}.${Python_VERSION_MINOR}/dist-packages/oneac)
+  set(ONEAC_PYTHON_FOLDER lib/${own}/dist-packages/oneac)
 endif()")
   install(TARGETS oneac_python LIBRARY DESTINATION "\${ONEAC_PYTHON_FOLDER}")
   list(TRANSFORM ARGN PREPEND "${package}/")
