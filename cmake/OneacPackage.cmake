@@ -19,4 +19,11 @@ set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
 string(JOIN ", " CPACK_DEBIAN_PACKAGE_SUGGESTS
   g++ cmake libeigen3-dev libopencv-dev libceres-dev libvlfeat-dev libmrpt-obs-dev
   libmrpt-topography-dev libyaml-cpp-dev libexpat1-dev zlib1g-dev libzstd-dev)
+# Needed by `import oneac`, not by the program; of the one Python that the extension was built for.
+if(TARGET oneac_python)
+  math(EXPR oneac_next_python "${Python_VERSION_MINOR} + 1")
+  set(CPACK_DEBIAN_PACKAGE_PROVIDES "python3-oneac (= ${PROJECT_VERSION})")
+  string(JOIN ", " CPACK_DEBIAN_PACKAGE_RECOMMENDS
+    "python3 (>= 3.${Python_VERSION_MINOR})" "python3 (<< 3.${oneac_next_python})" python3-numpy)
+endif()
 include(CPack)

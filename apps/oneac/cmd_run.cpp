@@ -1,5 +1,7 @@
 #include "commands.h"
+#include "run/result_files.h"
 #include "run/run_drive.h"
+#include "run/run_georeference.h"
 #include "run/run_gui.h"
 #include "run/run_options.h"
 #include "run/run_outputs.h"
@@ -41,6 +43,21 @@ bool learns_camera(const RunOptions& options) {
   return options.front_end.self_calibration.refine != "off";
 }
 
+/// The line that ends a run.
+std::string files_text(const DriveRecord& record, const RunOptions& options, bool joined,
+                       bool camera) {
+  std::string text =
+      "written to " + options.output +
+      ": trajectory_camera.kitti, trajectory_camera.tum, trajectory_vehicle.tum, "
+      "relative_poses.csv, covariance.csv, tilt.csv, timings.csv, summary.json, report.html, "
+      "params.yaml, files.json";
+  if (!record.keyframes.empty()) text += ", keyframes.tum, graph.g2o, map.simplemap, points.ply";
+  if (camera) text += ", camera.ini";
+  if (joined) text += ", trajectory.gpx, trajectory.kml";
+  if (joined && options.run.georeference) text += ", trajectory_enu.tum";
+  return text + (record.car_mask.empty() ? "\n" : ", mask.png\n");
+}
+
 void write_all(const DriveRecord& record, RunOptions& options, double wall_seconds) {
   const std::filesystem::path folder(options.output);
   write_drive(record, folder);
@@ -49,17 +66,17 @@ void write_all(const DriveRecord& record, RunOptions& options, double wall_secon
   if (!camera.empty()) write_file_atomically(folder / "camera.ini", camera);
   write_file_atomically(folder / "params.yaml", options.result_parameters());
   const RunEvaluation evaluation = evaluate_record(record, options);
+  const GeoreferenceResult& joined = evaluation.georeference;
+  write_georeferenced(record, joined, options.run.georeference, folder);
+  if (options.run.georeference && !joined.found && !options.run.quiet) {
+    std::cerr << "oneac: the drive is not joined to the GPS: " << printable(joined.reason) << '\n';
+  }
   const std::string summary = summary_json(record, evaluation, options, wall_seconds);
   write_file_atomically(folder / "summary.json", summary);
   write_file_atomically(folder / "report.html", report_html(record, evaluation, options, summary));
-  std::cout
-      << summary_text(record, evaluation) << "written to " << options.output
-      << ": trajectory_camera.kitti, trajectory_camera.tum, trajectory_vehicle.tum, "
-         "relative_poses.csv, covariance.csv, tilt.csv, timings.csv, summary.json, report.html, "
-         "params.yaml"
-      << (record.keyframes.empty() ? "" : ", keyframes.tum, graph.g2o, map.simplemap, points.ply")
-      << (camera.empty() ? "" : ", camera.ini")
-      << (record.car_mask.empty() ? "\n" : ", mask.png\n");
+  write_file_atomically(folder / "files.json", manifest_json(folder, record.has_scale()));
+  std::cout << summary_text(record, evaluation)
+            << files_text(record, options, joined.found, !camera.empty());
 }
 
 /// Before the results of an earlier run are taken away: a mistyped name costs nobody a drive.
@@ -84,6 +101,7 @@ void run(RunFlags& flags) {
   require_writable_folder(options.output);
   require_log(options.log);
   if (learns_camera(options)) require_no_other_camera(options.output);
+  require_no_other_results(options.output);
   clear_of_earlier_run(options.output);
   catch_interrupts();
   const auto gui = flags.gui ? std::make_unique<RunGui>() : nullptr;
@@ -123,6 +141,9 @@ void add_run(CLI::App& program) {
   add_key(*verb, "--reference", "run.reference", flags->settings, "true poses, KITTI or TUM");
   add_key(*verb, "--seed", "run.seed", flags->settings, "seed of methods that draw random numbers");
   add_key(*verb, "--threads", "run.threads", flags->settings, "images prepared at once");
+  verb->add_flag_callback(
+      "--georeference", [flags] { flags->settings.emplace_back("run.georeference=true"); },
+      "write trajectory_enu.tum as well: the vehicle's way in the frame of the log's GPS");
   verb->add_flag("--gui", flags->gui, "show the drive in a window while it is computed");
   verb->add_flag("--no-progress", flags->no_progress, "no progress bar");
   verb->add_flag("--quiet", flags->quiet, "no progress bar, notes or warnings");

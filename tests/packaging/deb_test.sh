@@ -23,6 +23,12 @@ for file in /usr/bin/oneac /usr/lib/oneac/oneac_rivals.so liboneac_frontend.a on
   /usr/share/doc/oneac/copyright; do
   expect_output "$file"
 done
+if [ -d "$1/python/oneac" ]; then
+  expect_output /usr/lib/python3/dist-packages/oneac/_oneac.cpython
+  expect_output /usr/lib/python3/dist-packages/oneac/py.typed
+  [ "$(dpkg-deb --field "$package" Provides | cut -d ' ' -f 1)" = python3-oneac ] ||
+    fail "does not provide python3-oneac"
+fi
 grep -q -v ' \./usr/' <(sed 1d "$run_output") && fail "something outside /usr"
 
 case_name "the unpacked program runs and finds its plugin"
@@ -32,3 +38,11 @@ expect_code 0
 run "$scratch/root/usr/bin/oneac" compare --rivals no-such.rawlog -o "$scratch/out"
 expect_code 2
 expect_output "no-such.rawlog"
+
+if [ -d "$1/python/oneac" ]; then
+  case_name "the unpacked Python package is imported"
+  run env PYTHONPATH="$scratch/root/usr/lib/python3/dist-packages" /usr/bin/python3 -B -c \
+    'import oneac; print(len(oneac.solvers()), "solvers")'
+  expect_code 0
+  expect_output " solvers"
+fi

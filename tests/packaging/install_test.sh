@@ -63,3 +63,15 @@ case_name "every module can be found, included and linked"
 build_against_moved all_modules
 run "$scratch/all_modules/all_modules"
 expect_code 0
+
+if [ -d "$build/python/oneac" ]; then
+  case_name "the moved Python package is imported, with its types"
+  package=$(find "$scratch/moved" -path '*/dist-packages/oneac' -type d)
+  for file in py.typed _oneac.pyi _solvers.pyi; do
+    [ -f "$package/$file" ] || fail "$file is not installed"
+  done
+  run env PYTHONPATH="$(dirname "$package")" /usr/bin/python3 -B -c 'import oneac
+print(oneac.__file__, oneac.relpose_1ac_ground([0, 0.3], [0, 0.4], [[1.3, 0], [0, 1.8]]).t[0])'
+  expect_code 0
+  expect_output "$package/__init__.py"
+fi

@@ -32,6 +32,8 @@ template <class Visitor>
 void describe_results(Visitor&& visit, RunParameters& o) {
   visit("reference", o.reference, "path", "true poses; empty: beside the log, else its GPS");
   visit("seed", o.seed, "-", "of methods that draw random numbers");
+  visit("georeference", o.georeference, "bool",
+        "write trajectory_enu.tum, in the frame of the GPS");
 }
 
 template <class Visitor>

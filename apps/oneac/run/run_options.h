@@ -34,7 +34,8 @@ struct SourceParameters {
 struct RunParameters {
   std::string reference;  ///< true poses; "" looks beside the log, then takes the log's GPS
   int seed = 0;           ///< for methods that draw random numbers; the one-AC consensus does not
-  int threads = 2;        ///< images prepared at once
+  bool georeference = false;  ///< the way in the frame of the GPS, too
+  int threads = 2;            ///< images prepared at once
   bool progress = true;
   bool quiet = false;
 };

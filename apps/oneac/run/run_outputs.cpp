@@ -1,5 +1,7 @@
 #include "run_outputs.h"
 
+#include "result_files.h"
+
 #include "oneac/base/atomic_file.h"
 #include "oneac/base/error.h"
 #include "oneac/base/number_text.h"
@@ -12,7 +14,6 @@
 #include "oneac/report/table.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <fstream>
 #include <stdexcept>
@@ -142,9 +143,33 @@ bool is_camera_of_a_run(const std::filesystem::path& file) {
   return std::getline(in, line) && line.rfind(kOfARun, 0) == 0;
 }
 
+/// Names that people give their own files, too: a run's have this at their beginning.
+struct Signature {
+  std::string_view name, text;
+};
+constexpr Signature kSignatures[] = {{"trajectory.gpx", "creator=\"oneac"},
+                                     {"trajectory.kml", "<name>oneac</name>"},
+                                     {"files.json", "\"by\": \"oneac"}};
+
+bool begins_with_signature(const Signature& signature, const std::filesystem::path& file) {
+  constexpr std::streamsize kBeginning = 400;  // [byte]
+  std::ifstream in(file, std::ios::binary);
+  std::string beginning(kBeginning, ' ');
+  in.read(beginning.data(), kBeginning);
+  return beginning.find(signature.text) != std::string::npos;
+}
+
 /// Not what a run has written.
-bool belongs_to_others(const char* name, const std::filesystem::path& file) {
-  return name == std::string_view(kCameraFile) && !is_camera_of_a_run(file);
+bool belongs_to_others(std::string_view name, const std::filesystem::path& file) {
+  for (const Signature& signature : kSignatures) {
+    if (name == signature.name) return !begins_with_signature(signature, file);
+  }
+  return name == kCameraFile && !is_camera_of_a_run(file);
+}
+
+[[noreturn]] void refuse_to_overwrite(const std::filesystem::path& file) {
+  throw InputError(file.string(), "no run has written it, and this one would overwrite it",
+                   "name another folder with -o");
 }
 
 /// The raw image's camera whose undistorted images have a focal length `factor` times as long:
@@ -161,24 +186,6 @@ PinholeCamera with_longer_focal(PinholeCamera camera, double factor) {
   return camera;
 }
 
-/// Every name that a run may write.
-constexpr std::array<const char*, 16> kResults{"trajectory_camera.kitti",
-                                               "trajectory_camera.tum",
-                                               "trajectory_vehicle.tum",
-                                               "relative_poses.csv",
-                                               "covariance.csv",
-                                               "tilt.csv",
-                                               "timings.csv",
-                                               "keyframes.tum",
-                                               "graph.g2o",
-                                               "map.simplemap",
-                                               "points.ply",
-                                               "mask.png",
-                                               kCameraFile,
-                                               "params.yaml",
-                                               "summary.json",
-                                               "report.html"};
-
 /// Images that have no right one, where the scale comes of stereo.
 std::string about_lone_images(const DriveRecord& record) {
   const SourceReport& source = record.source;
@@ -193,10 +200,10 @@ std::string about_lone_images(const DriveRecord& record) {
 }  // namespace
 
 void clear_of_earlier_run(const std::filesystem::path& folder) {
-  for (const char* name : kResults) {
-    const std::filesystem::path file = replaced_file(folder / name);
+  for (const ResultFile& result : ResultFiles()) {
+    const std::filesystem::path file = replaced_file(folder / result.name);
     std::error_code ignored;
-    if (belongs_to_others(name, file)) continue;
+    if (belongs_to_others(result.name, file)) continue;
     if (std::filesystem::is_regular_file(file, ignored)) std::filesystem::remove(file, ignored);
   }
 }
@@ -205,8 +212,16 @@ void require_no_other_camera(const std::filesystem::path& folder) {
   const std::filesystem::path file = folder / kCameraFile;
   std::error_code ignored;
   if (!std::filesystem::exists(file, ignored) || is_camera_of_a_run(file)) return;
-  throw InputError(file.string(), "no run has written it, and this one would overwrite it",
-                   "name another folder with -o");
+  refuse_to_overwrite(file);
+}
+
+void require_no_other_results(const std::filesystem::path& folder) {
+  for (const Signature& signature : kSignatures) {
+    const std::filesystem::path file = folder / signature.name;
+    std::error_code ignored;
+    if (!std::filesystem::exists(file, ignored)) continue;
+    if (belongs_to_others(signature.name, file)) refuse_to_overwrite(file);
+  }
 }
 
 std::string used_camera_ini(const DriveRecord& record, const std::string& log) {

@@ -16,6 +16,9 @@ void clear_of_earlier_run(const std::filesystem::path& folder);
 /// calibrate, is nobody's to overwrite. @throws InputError naming it
 void require_no_other_camera(const std::filesystem::path& folder);
 
+/// The same of trajectory.gpx, trajectory.kml and files.json, names that people use themselves.
+void require_no_other_results(const std::filesystem::path& folder);
+
 /// The camera that a run with a learned focal length used in the end, for --calibration: that of
 /// the raw images, with its 1σ. Empty for a lens that is not plumb bob.
 [[nodiscard]] std::string used_camera_ini(const DriveRecord& record, const std::string& log);

@@ -1,6 +1,7 @@
 #include "run_summary.h"
 
 #include "gps_lag.h"
+#include "run_georeference.h"
 
 #include "oneac/base/number_text.h"
 #include "oneac/base/version.h"
@@ -223,6 +224,7 @@ RunEvaluation evaluate_record(const DriveRecord& record, const RunOptions& optio
   }
   evaluation.against_gps = compare_with_gps(record);
   evaluation.gps_lag_s = lag_of_gps(record.vehicle_trajectory(), record.source.reference);
+  evaluation.georeference = georeference_of(record);
   return evaluation;
 }
 
@@ -257,6 +259,7 @@ std::string summary_json(const DriveRecord& record, const RunEvaluation& evaluat
   if (evaluation.against_gps) reference["gps"] = gps_json(*evaluation.against_gps);
   if (evaluation.gps_lag_s) reference["gps"]["lag_s"] = *evaluation.gps_lag_s;
   json["reference"] = reference;
+  json["georeference"] = georeference_json(record, evaluation.georeference);
   json["timing"] = timing_json(record, options, wall_seconds);
   return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }

@@ -4,6 +4,7 @@
 #include "run_options.h"
 
 #include "oneac/evaluation/evaluate.h"
+#include "oneac/evaluation/georeference.h"
 
 #include <optional>
 #include <string>
@@ -24,6 +25,7 @@ struct RunEvaluation {
   std::optional<Evaluation> against_poses;
   std::optional<GpsComparison> against_gps;
   std::optional<double> gps_lag_s;  ///< see lag_of_gps
+  GeoreferenceResult georeference;  ///< how the drive lies on the earth, or why that is not known
 };
 
 /// Compares with --reference, else with poses found beside the log (`<base>_poses.txt`,

@@ -82,6 +82,13 @@ std::vector<GpsFix> ReferenceCollector::to_fixes(const Readings& epochs) {
   return fixes;
 }
 
+std::optional<GeodeticFix> ReferenceCollector::first_position(const Readings& epochs) {
+  for (const auto& epoch : epochs) {
+    if (epoch.position) return epoch.position;
+  }
+  return std::nullopt;
+}
+
 VehicleReference read_vehicle_reference(const std::filesystem::path& log) {
   LogReader reader(log);
   ReferenceCollector collector;
@@ -95,6 +102,7 @@ VehicleReference ReferenceCollector::build() const {
   for (const auto& [label, readings] : gps_) epochs[label] = merged(readings);
   if (const auto* best = longest(epochs)) {
     reference.gps = to_fixes(best->second);
+    reference.origin = first_position(best->second);
     reference.speeds = speeds_of(gps_.at(best->first));
   }
   if (const auto* best = longest(imu_)) reference.imu = best->second;

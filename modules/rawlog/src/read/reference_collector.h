@@ -30,6 +30,7 @@ class ReferenceCollector {
   [[nodiscard]] static Readings merged(Readings readings);
   [[nodiscard]] static std::vector<SpeedReading> speeds_of(Readings readings);
   [[nodiscard]] static std::vector<GpsFix> to_fixes(const Readings& epochs);
+  [[nodiscard]] static std::optional<GeodeticFix> first_position(const Readings& epochs);
 
   std::map<std::string, Readings> gps_;
   std::map<std::string, std::vector<ImuSample>> imu_;

@@ -20,7 +20,8 @@ struct GpsFix {
 
 /// What the other sensors say about the vehicle's motion: a reference, not an input.
 struct VehicleReference {
-  std::vector<GpsFix> gps;  ///< in time order, NaN-free
+  std::vector<GpsFix> gps;            ///< in time order, NaN-free
+  std::optional<GeodeticFix> origin;  ///< of their positions: the first
   /// Of the same receiver, by its positions where it states none; in time order.
   std::vector<SpeedReading> speeds;
   std::vector<ImuSample> imu;  ///< in time order

@@ -1,0 +1,192 @@
+// The front-end, fed with images of numpy or frames of a rawlog.
+#include "bindings.h"
+#include "front_end_records.h"
+#include "options.h"
+#include "records.h"
+
+#include "oneac/frontend/front_end.h"
+
+#include <pybind11/stl.h>
+
+#include <mutex>
+#include <optional>
+#include <stdexcept>
+
+namespace oneac::python {
+namespace {
+
+/// A front-end with what it needs to make observations of bare images. Calls of several threads go
+/// one by one; the lock is only taken without the interpreter's.
+class LiveFrontEnd {
+  template <class Work>
+  auto alone(Work&& work) {
+    const py::gil_scoped_release release;
+    const std::lock_guard<std::mutex> lock(mutex_);
+    return work();
+  }
+
+ public:
+  LiveFrontEnd(const FrontEndOptions& options, const Eigen::Isometry3d& mount)
+      : front_end_(options), mount_(mount), calibrated_(options.calibration.has_value()) {
+    front_end_.logging_enable_console_output = false;
+    front_end_.logRegisterCallback([](std::string_view text, mrpt::system::VerbosityLevel level,
+                                      std::string_view,
+                                      mrpt::Clock::time_point) { log_to_python(text, level); });
+  }
+
+  py::object feed(const py::object& image, double time_s) {
+    if (!calibrated_) {
+      throw std::invalid_argument("images need a camera: oneac.FrontEnd(camera, …)");
+    }
+    require_time(time_s);
+    const auto observation = observation_of(pixels_from(image, true), time_s, mount_);
+    const auto result = alone([&] { return front_end_.feed(observation); });
+    if (!result) return py::none();
+    remember(*result);
+    return to_python(*result);
+  }
+
+  py::object process(const CameraFrame& frame) {
+    const FrameResult result = alone([&] { return front_end_.process(front_end_.prepare(frame)); });
+    remember(result);
+    return to_python(result);
+  }
+
+  void add_speed(double time_s, double speed, double sigma) {
+    alone([&] { front_end_.add_speed(time_s, speed, sigma); });
+  }
+  void add_acceleration(double time_s, const py::object& acceleration,
+                        std::optional<double> yaw_rate) {
+    const Eigen::Vector3d a = vector3(acceleration, "acceleration");
+    alone([&] { front_end_.add_acceleration(time_s, a, yaw_rate); });
+  }
+  void finish() {
+    alone([&] { static_cast<void>(front_end_.finish()); });
+  }
+
+  [[nodiscard]] py::object trajectory() {
+    return python::to_python(alone([&] {
+      Trajectory trajectory;
+      for (const FramePose& pose : front_end_.trajectory().poses()) {
+        trajectory.times.push_back(pose.time_s);
+        trajectory.poses.push_back(pose.T_first_cam);
+      }
+      return trajectory;
+    }));
+  }
+  [[nodiscard]] py::object relative_poses() const { return python::to_python(rows_); }
+  [[nodiscard]] py::object correspondences() {
+    const TrackedPair pair = alone([&] { return front_end_.correspondences(); });
+    return columns_of(pair);
+  }
+  [[nodiscard]] py::object car_mask() {
+    const GreyImage mask = alone([&] { return front_end_.car_mask(); });
+    return mask.empty() ? py::object(py::none()) : py::object(python::to_numpy(mask));
+  }
+  [[nodiscard]] std::vector<std::string> setup_faults() {
+    return alone([&] { return front_end_.setup_faults(); });
+  }
+  [[nodiscard]] double camera_height() {
+    return alone([&] { return front_end_.camera_height(); });
+  }
+
+ private:
+  void remember(const FrameResult& result) {
+    if (result.step) rows_.push_back(row_of(*result.step));
+  }
+
+  static py::object columns_of(const TrackedPair& pair);
+
+  std::mutex mutex_;
+  FrontEnd front_end_;
+  Eigen::Isometry3d mount_;
+  bool calibrated_;
+  std::vector<RelativePoseRow> rows_;
+};
+
+py::object LiveFrontEnd::columns_of(const TrackedPair& pair) {
+  const std::vector<AffineCorrespondence> acs = affine_parts(pair);
+  const auto two = [&](const Eigen::Vector2d AffineCorrespondence::*point) {
+    return rows_of(acs, 2, [&](const AffineCorrespondence& ac) {
+      return std::optional<Eigen::Vector2d>(ac.*point);
+    });
+  };
+  Doubles A(Shape{static_cast<py::ssize_t>(acs.size()), 2, 2});
+  for (std::size_t i = 0; i < acs.size(); ++i) {
+    Eigen::Map<Eigen::Matrix<double, 2, 2, Eigen::RowMajor>>(A.mutable_data() + 4 * i) = acs[i].A;
+  }
+  return result_class("Correspondences")(two(&AffineCorrespondence::x1),
+                                         two(&AffineCorrespondence::x2), A);
+}
+
+std::unique_ptr<LiveFrontEnd> front_end_from(const py::object& camera,
+                                             const py::object& T_vehicle_cam, std::size_t seed,
+                                             const py::kwargs& values) {
+  FrontEndOptions options;
+  ParameterTable table;
+  table.add("", options);
+  set_parameters(values, "", table);
+  options.seed = seed;
+  options.mount_convention = "optical";
+  if (!camera.is_none() && !py::isinstance<PinholeCamera>(camera)) {
+    throw std::invalid_argument("camera must be an oneac.Camera");
+  }
+  if (!camera.is_none()) options.calibration = py::cast<PinholeCamera>(camera);
+  options.validate();
+  const Eigen::Isometry3d mount = T_vehicle_cam.is_none() ? CameraFrame::forward_looking_mount()
+                                                          : rigid(T_vehicle_cam, "T_vehicle_cam");
+  return std::make_unique<LiveFrontEnd>(options, mount);
+}
+
+constexpr const char* kFrontEndDoc =
+    R"(Frame in, pose out: the visual front-end of a vehicle with one camera.
+
+FrontEnd(camera, camera_height=1.65) takes numpy images by feed(); FrontEnd() frames of a Rawlog by
+process(). Further keywords are the keys of front_end in docs/parameters.md, sections as dicts:
+initialiser="1ac_ground", tilt={"source": "drive"}.
+
+camera         Camera of the images that feed() gets; with distortion it removes that.
+T_vehicle_cam  (4, 4) pose of the camera on the vehicle (oneac.mount); None: level, looking ahead.
+seed           Of methods that draw random numbers.
+
+Poses are metric only where they say so. Calls release the interpreter's lock; those of several
+threads go one by one. Notes go to logging.getLogger("oneac").)";
+
+}  // namespace
+
+void bind_front_end(py::module_& m) {
+  using Self = LiveFrontEnd;
+  py::class_<Self>(m, "FrontEnd", kFrontEndDoc)
+      .def(py::init(&front_end_from), py::arg("camera") = py::none(), py::kw_only(),
+           py::arg("T_vehicle_cam") = py::none(), py::arg("seed") = 0)
+      .def("feed", &Self::feed, py::arg("image"), py::arg("time_s"),
+           "An image (height, width) grey or (height, width, 3) RGB, uint8, at a Unix time [s].\n"
+           "FrameResult; None for one that is not later than the last.")
+      .def("process", &Self::process, py::arg("frame"),
+           "A Frame, in order of time: FrameResult, as `oneac run` has it.")
+      .def("add_speed", &Self::add_speed, py::arg("time_s"), py::arg("speed"),
+           py::arg("sigma") = SpeedReading::kDoppler,
+           "Speed over ground [m/s] with its 1σ, for scale={\"source\": \"gps\"}; a second or two\n"
+           "ahead of the images.")
+      .def("add_acceleration", &Self::add_acceleration, py::arg("time_s"), py::arg("acceleration"),
+           py::arg("yaw_rate") = py::none(),
+           "Specific force (3,) in the vehicle frame [m/s²], yaw rate [rad/s], for\n"
+           "tilt={\"source\": \"imu\"}.")
+      .def("finish", &Self::finish, "Makes everything final at the end of a drive.")
+      .def_property_readonly("trajectory", &Self::trajectory,
+                             "Trajectory of the camera in its first frame; final after finish().")
+      .def_property_readonly("relative_poses", &Self::relative_poses,
+                             "RelativePoses of the pairs so far, as relative_poses.csv has them.")
+      .def_property_readonly("correspondences", &Self::correspondences,
+                             "Correspondences [px] from the frame before to the last one.")
+      .def_property_readonly(
+          "car_mask", &Self::car_mask,
+          "(height, width) uint8, 0 where the car itself is seen; None: nowhere.")
+      .def_property_readonly("setup_faults", &Self::setup_faults,
+                             "What speaks against calibration and mount, a line each; while there\n"
+                             "is something, no step is metric.")
+      .def_property_readonly("camera_height", &Self::camera_height,
+                             "[m] in use; 0: unknown, then nothing is metric.");
+}
+
+}  // namespace oneac::python

@@ -1,0 +1,165 @@
+// Rawlogs: images of one camera as frames, GPS and IMU as arrays.
+#include "bindings.h"
+#include "frames.h"
+#include "records.h"
+
+#include "oneac/rawlog/log_summary.h"
+#include "oneac/rawlog/rawlog_source.h"
+#include "oneac/rawlog/vehicle_reference.h"
+
+#include <pybind11/stl.h>
+#include <pybind11/stl/filesystem.h>
+
+#include <memory>
+#include <mutex>
+#include <optional>
+
+namespace oneac::python {
+namespace {
+
+/// A log that is being read. One reader at a time: the lock is taken without the interpreter's.
+class Rawlog {
+ public:
+  explicit Rawlog(const SourceOptions& options) : source_(options) {}
+
+  std::shared_ptr<CameraFrame> next() {
+    const py::gil_scoped_release release;
+    const std::lock_guard<std::mutex> lock(mutex_);
+    const auto ticket = source_.next();
+    if (ticket) return std::make_shared<CameraFrame>(source_.load(*ticket));
+    if (!finished_) source_.finish();
+    finished_ = true;
+    return nullptr;
+  }
+  [[nodiscard]] SourceReport report() {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    return source_.report();
+  }
+
+ private:
+  std::mutex mutex_;
+  RawlogSource source_;
+  bool finished_ = false;
+};
+
+std::unique_ptr<Rawlog> open(const std::filesystem::path& log, const std::string& camera,
+                             const std::optional<std::filesystem::path>& images_dir,
+                             const py::object& calibration, std::size_t first, std::size_t count,
+                             std::size_t every, bool stereo, const std::string& convention) {
+  SourceOptions options;
+  options.log = log;
+  options.camera = camera;
+  if (images_dir) options.images_dir = *images_dir;
+  options.mount_convention = convention;
+  options.first = first;
+  options.count = count;
+  options.every = every;
+  options.stereo = stereo;
+  if (py::isinstance<PinholeCamera>(calibration)) {
+    options.camera_model = py::cast<PinholeCamera>(calibration);
+  } else if (!calibration.is_none()) {
+    options.calibration = py::cast<std::string>(py::str(calibration));
+  }
+  options.validate();
+  const py::gil_scoped_release release;
+  return std::make_unique<Rawlog>(options);
+}
+
+py::object report_of(Rawlog& log) {
+  const SourceReport report = log.report();
+  return result_class("RawlogReport")(report.images_in_log, report.images_missing,
+                                      report.first_missing, report.pairs_delivered, report.damage);
+}
+
+py::object gps_columns(const std::vector<GpsFix>& gps) {
+  return result_class("Gps")(
+      column<double>(gps, [](const GpsFix& fix) { return fix.time_s; }),
+      rows_of(gps, 3, [](const GpsFix& fix) { return fix.position_enu; }),
+      column<double>(gps, [](const GpsFix& fix) { return fix.speed.value_or(kAbsent); }),
+      column<double>(gps, [](const GpsFix& fix) { return fix.course.value_or(kAbsent); }));
+}
+
+py::object imu_columns(const std::vector<ImuSample>& imu) {
+  return result_class("Imu")(
+      column<double>(imu, [](const ImuSample& sample) { return sample.time_s; }),
+      rows_of(imu, 3, [](const ImuSample& sample) { return sample.acceleration; }),
+      rows_of(imu, 3, [](const ImuSample& sample) { return sample.angular_rate; }));
+}
+
+py::object sensors(const std::filesystem::path& log) {
+  VehicleReference reference;
+  {
+    const py::gil_scoped_release release;
+    reference = read_vehicle_reference(log);
+  }
+  return result_class("Sensors")(gps_columns(reference.gps), imu_columns(reference.imu));
+}
+
+std::string describe(const std::filesystem::path& log) {
+  const py::gil_scoped_release release;
+  SummaryOptions options;
+  options.log = log;
+  return to_text(summarise_log(options));
+}
+
+/// A view of a frame's pixels, kept alive by it; None where there are none.
+py::object pixels(const std::shared_ptr<CameraFrame>& frame, const GreyImage& image) {
+  if (image.empty()) return py::none();
+  const ImageView view = image.view();
+  py::array_t<std::uint8_t> array(Shape{view.height, view.width}, Shape{view.stride, 1}, view.data,
+                                  py::cast(frame));
+  array.attr("setflags")(py::arg("write") = false);
+  return std::move(array);
+}
+
+void bind_frame(py::module_& m) {
+  using Frame = std::shared_ptr<CameraFrame>;
+  py::class_<CameraFrame, Frame>(m, "Frame", "One rectified image of one camera.")
+      .def(py::init(&frame_from), py::arg("image"), py::arg("time_s"), py::arg("camera"),
+           py::arg("index") = 0, py::arg("T_vehicle_cam") = py::none(),
+           "image: (height, width) uint8 without distortion, of the camera's size; time_s: [s].")
+      .def_readonly("index", &CameraFrame::index)
+      .def_readonly("time_s", &CameraFrame::time_s)
+      .def_readonly("name", &CameraFrame::name)
+      .def_readonly("camera", &CameraFrame::camera)
+      .def_readonly("raw_camera", &CameraFrame::raw_camera)
+      .def_readonly("baseline_m", &CameraFrame::baseline_m)
+      .def_property_readonly("image", [](const Frame& f) { return pixels(f, f->image); })
+      .def_property_readonly("right", [](const Frame& f) { return pixels(f, f->right); })
+      .def_property_readonly("T_vehicle_cam",
+                             [](const Frame& f) { return to_numpy(f->T_vehicle_cam); })
+      .def("__repr__", [](const Frame& f) {
+        return "<oneac.Frame " + std::to_string(f->index) + " " + f->name + ">";
+      });
+}
+
+void bind_log(py::module_& m) {
+  py::class_<Rawlog>(m, "Rawlog", "The images of one camera of an MRPT rawlog, in log order.")
+      .def(py::init(&open), py::arg("log"), py::kw_only(), py::arg("camera") = "",
+           py::arg("images_dir") = py::none(), py::arg("calibration") = py::none(),
+           py::arg("first") = 0, py::arg("count") = 0, py::arg("every") = 1,
+           py::arg("stereo") = false, py::arg("mount_convention") = "auto",
+           "As the flags of `oneac run`; calibration: FILE[:SECTION] or a Camera. Streams: memory\n"
+           "does not grow with the log. InputError: where, fault, cure.")
+      .def("__iter__", [](py::object self) { return self; })
+      .def("__next__",
+           [](Rawlog& log) {
+             auto frame = log.next();
+             if (!frame) throw py::stop_iteration();
+             return frame;
+           })
+      .def_property_readonly("report", &report_of,
+                             "What was read so far: oneac.RawlogReport. A log that ends in damage\n"
+                             "gives its frames before that; `damage` says so then.");
+}
+
+}  // namespace
+
+void bind_rawlog(py::module_& m) {
+  bind_frame(m);
+  bind_log(m);
+  m.def("read_sensors", &sensors, py::arg("log"), "GPS and IMU of a whole log: oneac.Sensors.");
+  m.def("describe_log", &describe, py::arg("log"), "What `oneac info` says of a log.");
+}
+
+}  // namespace oneac::python

@@ -1,0 +1,78 @@
+#include "front_end_records.h"
+
+#include "oneac/frontend/trajectory_uncertainty.h"
+
+#include <mrpt/core/Clock.h>
+#include <pybind11/stl.h>
+
+#include <algorithm>
+
+namespace oneac::python {
+namespace {
+
+py::object to_python(const StepResult& step) {
+  return result_class("Step")(step.index1, step.index2, step.time1, step.time2,
+                              to_string(step.status), to_numpy(Eigen::MatrixXd(step.pose.R)),
+                              to_numpy(step.pose.t), step.metric, step.length, step.length_sigma,
+                              to_numpy(Eigen::MatrixXd(step.covariance)), step.acs, step.inliers,
+                              step.segment);
+}
+
+}  // namespace
+
+py::object to_python(const FrameResult& result) {
+  const py::object step = result.step ? to_python(*result.step) : py::object(py::none());
+  const py::object keyframe = py::cast(result.keyframe);
+  return result_class("FrameResult")(result.index, result.time_s, to_numpy(result.T_first_cam),
+                                     to_numpy(result.T_odom_cam), step, result.tilt.tilt.pitch_up,
+                                     result.tilt.tilt.roll_right, keyframe);
+}
+
+RelativePoseRow row_of(const StepResult& step) {
+  RelativePoseRow row;
+  row.index1 = step.index1;
+  row.index2 = step.index2;
+  row.t1 = step.time1;
+  row.t2 = step.time2;
+  row.T_2_1 = step.pose;
+  row.metric = step.metric;
+  row.inliers = static_cast<int>(step.inliers);
+  row.acs = static_cast<int>(step.acs);
+  row.status = to_string(step.status);
+  row.sigma_length = sigma_of_length(step);
+  return row;
+}
+
+void log_to_python(std::string_view text, mrpt::system::VerbosityLevel level) {
+  const py::gil_scoped_acquire acquire;
+  const int levels[] = {10, 20, 30, 40};  // DEBUG, INFO, WARN, ERROR of both
+  const int number = levels[std::clamp(static_cast<int>(level), 0, 3)];
+  const std::string line(text.substr(0, text.find_last_not_of("\r\n") + 1));
+  py::module_::import("logging").attr("getLogger")("oneac").attr("log")(number, "%s", line);
+}
+
+std::shared_ptr<mrpt::obs::CObservationImage> observation_of(const Pixels& pixels, double time_s,
+                                                             const Eigen::Isometry3d& mount) {
+  const auto height = static_cast<int>(pixels.shape(0)), width = static_cast<int>(pixels.shape(1));
+  const bool grey = pixels.ndim() == 2;
+  auto observation = mrpt::obs::CObservationImage::Create();
+  observation->sensorLabel = "numpy";
+  observation->timestamp = mrpt::Clock::fromDouble(time_s);
+  observation->cameraPose = mrpt::poses::CPose3D(mrpt::math::CMatrixDouble44(mount.matrix()));
+  mrpt::img::CImage image(static_cast<unsigned>(width), static_cast<unsigned>(height),
+                          grey ? mrpt::img::CH_GRAY : mrpt::img::CH_RGB);
+  for (int v = 0; v < height; ++v) {
+    auto* row = image.ptrLine<std::uint8_t>(static_cast<unsigned>(v));
+    const std::uint8_t* from = pixels.data() + static_cast<py::ssize_t>(v) * width * (grey ? 1 : 3);
+    if (grey) {
+      std::copy_n(from, width, row);
+    } else {  // blue first in memory
+      for (int u = 0; u < width; ++u)
+        std::reverse_copy(from + 3 * u, from + 3 * u + 3, row + 3 * u);
+    }
+  }
+  observation->image = std::move(image);
+  return observation;
+}
+
+}  // namespace oneac::python

@@ -1,0 +1,147 @@
+import logging
+
+import numpy as np
+import pytest
+
+import oneac
+
+CAMERA = oneac.Camera(480, 360, 375, 375, 239.5, 179.5)
+
+
+def frames_of(drive, **options):
+    return list(oneac.Rawlog(drive / "simulated.rawlog", **options))
+
+
+def test_a_log_gives_frames_with_stamps(drive):
+    log = oneac.Rawlog(drive / "simulated.rawlog")
+    frames = list(log)
+    assert [frame.index for frame in frames] == list(range(24))
+    assert (np.diff([frame.time_s for frame in frames]) > 0).all()
+    first = frames[0]
+    assert first.image.shape == (360, 480) and first.image.dtype == np.uint8
+    assert not first.image.flags.writeable and first.right is None
+    assert first.camera.K.shape == (3, 3) and first.camera.K[0, 0] == 375
+    assert first.T_vehicle_cam.shape == (4, 4)
+    assert log.report.images_in_log == 24 and log.report.damage == ""
+    every = frames_of(drive, first=2, every=5, count=3)
+    assert [frame.index for frame in every] == [2, 7, 12]
+
+
+def test_an_image_outlives_its_frame(drive):
+    image = frames_of(drive, count=1)[0].image
+    again = frames_of(drive, count=1)[0].image
+    np.testing.assert_array_equal(image, again)
+
+
+def test_frames_give_the_poses_of_oneac_run(drive, result):
+    front_end = oneac.FrontEnd()
+    steps = [front_end.process(frame).step for frame in frames_of(drive)]
+    front_end.finish()
+    run = oneac.read_run(result)
+    np.testing.assert_array_equal(front_end.trajectory.positions, run.trajectory.positions)
+    np.testing.assert_allclose(front_end.trajectory.T, run.trajectory.T, atol=1e-12)
+    np.testing.assert_array_equal(front_end.relative_poses.t, run.relative_poses.t)
+    np.testing.assert_array_equal(front_end.relative_poses.sigma_length,
+                                  run.relative_poses.sigma_length)
+    assert steps[0] is None and steps[1].covariance.shape == (6, 6)
+    assert front_end.relative_poses.metric.all() and front_end.setup_faults == []
+
+
+def test_bare_images_give_the_same_poses(drive):
+    frames = frames_of(drive)
+    mount = frames[0].T_vehicle_cam
+    camera = frames[0].camera
+    by_frames = oneac.FrontEnd()
+    by_images = oneac.FrontEnd(camera, T_vehicle_cam=mount)
+    for frame in frames:
+        by_frames.process(frame)
+        found = by_images.feed(frame.image, frame.time_s)
+        assert found.time_s == pytest.approx(frame.time_s, abs=1e-6)
+    np.testing.assert_allclose(by_images.trajectory.T, by_frames.trajectory.T, atol=1e-6)
+    assert by_images.camera_height == pytest.approx(mount[2, 3])
+    u1, u2, A = by_images.correspondences
+    assert u1.shape == u2.shape == (len(A), 2) and len(A) > 100
+
+
+def test_colour_images_are_rgb(drive):
+    grey = frames_of(drive, count=2)
+    colour = oneac.FrontEnd(grey[0].camera, camera_height=1.65)
+    bare = oneac.FrontEnd(grey[0].camera, camera_height=1.65)
+    for frame in grey:
+        three = np.repeat(frame.image[:, :, None], 3, axis=2)
+        found, expected = colour.feed(three, frame.time_s), bare.feed(frame.image, frame.time_s)
+    np.testing.assert_allclose(found.T_first_cam, expected.T_first_cam, atol=1e-9)
+
+
+def test_an_image_that_comes_late_gives_nothing(drive, caplog):
+    front_end = oneac.FrontEnd(CAMERA, camera_height=1.65)
+    image = np.zeros((360, 480), np.uint8)
+    assert front_end.feed(image, 10.0) is not None
+    with caplog.at_level(logging.DEBUG, logger="oneac"):
+        assert front_end.feed(image, 9.0) is None
+    assert "not later" in caplog.text or "passed over" in caplog.text
+    assert front_end.feed(image, 10.1) is not None
+
+
+@pytest.mark.parametrize("image", [np.zeros((360, 480)), np.zeros((360, 480, 4), np.uint8),
+                                   np.zeros((0, 0), np.uint8), np.zeros(5, np.uint8), "image.png",
+                                   np.zeros((360, 480), np.uint16)])
+def test_what_is_no_image_is_refused(image):
+    with pytest.raises(ValueError, match="image .*must be"):
+        oneac.FrontEnd(CAMERA).feed(image, 1.0)
+
+
+def test_misuse_is_a_value_error_that_names_it():
+    image = np.zeros((360, 480), np.uint8)
+    with pytest.raises(ValueError, match="need a camera"):
+        oneac.FrontEnd().feed(image, 1.0)
+    with pytest.raises(ValueError, match="time_s"):
+        oneac.FrontEnd(CAMERA).feed(image, np.nan)
+    with pytest.raises(ValueError, match="100x90"):
+        oneac.FrontEnd(CAMERA).feed(np.zeros((90, 100), np.uint8), 1.0)
+    with pytest.raises(ValueError, match="camera_height"):
+        oneac.FrontEnd(CAMERA, camera_height=165)
+    with pytest.raises(ValueError, match="tilt.sorce.*tilt.source"):
+        oneac.FrontEnd(CAMERA, tilt={"sorce": "drive"})
+    with pytest.raises(ValueError, match="oneac.Camera"):
+        oneac.FrontEnd(np.eye(3))
+    with pytest.raises(ValueError, match="T_vehicle_cam is no rigid"):
+        oneac.FrontEnd(CAMERA, T_vehicle_cam=np.ones((4, 4)))
+    with pytest.raises(ValueError, match="fx"):
+        oneac.Camera(480, 360, -1, 375, 240, 180)
+    with pytest.raises(ValueError, match="speed"):
+        oneac.FrontEnd(CAMERA).add_speed(1.0, -5.0)
+    with pytest.raises(ValueError, match="acceleration"):
+        oneac.FrontEnd(CAMERA).add_acceleration(1.0, [0, np.nan, 9.8])
+
+
+def test_a_frame_can_be_made_of_an_image(drive):
+    frames = frames_of(drive, count=3)
+    made = [oneac.Frame(f.image, f.time_s, f.camera, f.index, f.T_vehicle_cam) for f in frames]
+    first, second = oneac.FrontEnd(), oneac.FrontEnd()
+    for frame, copy in zip(frames, made):
+        one, other = first.process(frame), second.process(copy)
+    np.testing.assert_array_equal(one.T_first_cam, other.T_first_cam)
+    with pytest.raises(ValueError, match="480x360"):
+        oneac.Frame(np.zeros((9, 9), np.uint8), 0.0, frames[0].camera)
+
+
+def test_a_log_that_is_not_there_is_an_input_error(tmp_path):
+    with pytest.raises(oneac.InputError, match="no such file"):
+        oneac.Rawlog(tmp_path / "none.rawlog")
+
+
+def test_a_damaged_log_gives_what_comes_before(drive, tmp_path):
+    whole = (drive / "simulated.rawlog").read_bytes()
+    (tmp_path / "cut.rawlog").write_bytes(whole[: len(whole) // 2])
+    log = oneac.Rawlog(tmp_path / "cut.rawlog", images_dir=drive / "Images")
+    assert 5 < len(list(log)) < 20
+    assert "cut.rawlog" in log.report.damage
+
+
+def test_sensors_are_arrays(drive):
+    gps, imu = oneac.read_sensors(drive / "simulated.rawlog")
+    assert gps.position_enu.shape == (len(gps.time_s), 3) and len(gps.time_s) > 1
+    assert imu.acceleration.shape == imu.angular_rate.shape == (len(imu.time_s), 3)
+    assert np.median(imu.acceleration[:, 2]) == pytest.approx(9.8, abs=0.5)
+    assert "CAMERA" in oneac.describe_log(drive / "simulated.rawlog")
