@@ -39,6 +39,18 @@ TEST_F(SensorFaults, DuplicatedAndOutOfOrderStampsAreLeftOutAndSaid) {
   EXPECT_EQ(poses_written(), 4U);
 }
 
+TEST_F(SensorFaults, ImagesThatRepeatTheOneBeforeAreLeftOutAndSaid) {
+  test::Objects frames = textured_frames(6);
+  for (const int i : {2, 3}) {
+    const auto at = static_cast<std::size_t>(i);
+    frames[at] = external_image("CAM", 0.1 * i, "frame_1.png");
+  }
+  test::write_log(log(), frames);
+  expect_exit(run(), 0, {"2 images repeat the one before, pixel by pixel (first: frame_1.png)"});
+  EXPECT_EQ(poses_written(), 4U);
+  EXPECT_EQ(summary().at("counts").at("images_repeated"), 2);
+}
+
 TEST_F(SensorFaults, OfTwoInterleavedCamerasOneIsChosenAndFollowed) {
   const test::Objects a = textured_frames(5);
   test::Objects both;
