@@ -1,6 +1,7 @@
 #include "commands.h"
 #include "run/run_drive.h"
 #include "run/run_gui.h"
+#include "run/run_loops.h"
 #include "run/run_options.h"
 #include "run/run_outputs.h"
 #include "run/run_report.h"
@@ -20,6 +21,7 @@
 #include <filesystem>
 #include <iostream>
 #include <memory>
+#include <optional>
 #include <stdexcept>
 
 namespace oneac::app {
@@ -35,29 +37,37 @@ struct RunFlags {
   bool no_progress = false;
   bool quiet = false;
   bool gui = false;
+  bool loops = false;
 };
 
 bool learns_camera(const RunOptions& options) {
   return options.front_end.self_calibration.refine != "off";
 }
 
-void write_all(const DriveRecord& record, RunOptions& options, double wall_seconds) {
+void write_all(const DriveRecord& record, const std::optional<ClosedDrive>& closed,
+               RunOptions& options, double wall_seconds) {
   const std::filesystem::path folder(options.output);
   write_drive(record, folder);
+  if (closed) write_closed_drive(record, *closed, folder);
   const std::string camera =
       learns_camera(options) ? used_camera_ini(record, options.log) : std::string();
   if (!camera.empty()) write_file_atomically(folder / "camera.ini", camera);
   write_file_atomically(folder / "params.yaml", options.result_parameters());
   const RunEvaluation evaluation = evaluate_record(record, options);
-  const std::string summary = summary_json(record, evaluation, options, wall_seconds);
+  const std::string summary =
+      summary_json(record, evaluation, options, wall_seconds, closed ? &*closed : nullptr);
   write_file_atomically(folder / "summary.json", summary);
-  write_file_atomically(folder / "report.html", report_html(record, evaluation, options, summary));
+  write_file_atomically(folder / "report.html", report_html(record, evaluation, options, summary,
+                                                            closed ? &*closed : nullptr));
   std::cout
-      << summary_text(record, evaluation) << "written to " << options.output
+      << summary_text(record, evaluation)
+      << (closed ? text_about(*closed, record, evaluation.reference_file) : std::string())
+      << "written to " << options.output
       << ": trajectory_camera.kitti, trajectory_camera.tum, trajectory_vehicle.tum, "
          "relative_poses.csv, covariance.csv, tilt.csv, timings.csv, summary.json, report.html, "
          "params.yaml"
       << (record.keyframes.empty() ? "" : ", keyframes.tum, graph.g2o, map.simplemap, points.ply")
+      << (closed ? names_of_closed_drive(record) : std::string())
       << (camera.empty() ? "" : ", camera.ini")
       << (record.car_mask.empty() ? "\n" : ", mask.png\n");
 }
@@ -78,6 +88,7 @@ void run(RunFlags& flags) {
   }
   if (flags.no_progress) options.run.progress = false;
   if (flags.quiet) options.run.quiet = true;
+  if (flags.loops) options.run.loops = true;
   options.validate();
   if (options.log.empty()) throw InputError("run", "no rawlog given", "oneac run LOG -o DIR");
   if (options.output.empty()) throw InputError("run", "no output folder given", "add -o DIR");
@@ -90,14 +101,18 @@ void run(RunFlags& flags) {
   const auto start = std::chrono::steady_clock::now();
   RunObserver observer;
   if (gui) observer = [&](const RunMoment& moment) { gui->show(moment); };
-  const DriveRecord record = run_drive(options, observer);
+  DriveRecord record = run_drive(options, observer);
+  std::optional<ClosedDrive> closed;
+  if (options.run.loops && !record.frames.empty()) closed = close_loops(record, options);
+  record.interrupted = record.interrupted || (closed && interrupted());
   const std::chrono::duration<double> wall = std::chrono::steady_clock::now() - start;
   if (!options.run.quiet) {
     for (const std::string& note : notes_about(record))
       std::cerr << "oneac: " << printable(note) << '\n';
+    if (closed && !closed->note.empty()) std::cerr << "oneac: " << printable(closed->note) << '\n';
   }
   fail_if_empty(record, options.log);
-  write_all(record, options, wall.count());
+  write_all(record, closed, options, wall.count());
   if (gui && !record.interrupted) gui->wait(record);
   fail_if_incomplete(record);
 }
@@ -123,6 +138,8 @@ void add_run(CLI::App& program) {
   add_key(*verb, "--reference", "run.reference", flags->settings, "true poses, KITTI or TUM");
   add_key(*verb, "--seed", "run.seed", flags->settings, "seed of methods that draw random numbers");
   add_key(*verb, "--threads", "run.threads", flags->settings, "images prepared at once");
+  verb->add_flag("--loops", flags->loops,
+                 "find places seen again and close the drive by them (docs/loops.md)");
   verb->add_flag("--gui", flags->gui, "show the drive in a window while it is computed");
   verb->add_flag("--no-progress", flags->no_progress, "no progress bar");
   verb->add_flag("--quiet", flags->quiet, "no progress bar, notes or warnings");

@@ -37,6 +37,7 @@ void describe_results(Visitor&& visit, RunParameters& o) {
 template <class Visitor>
 void describe(Visitor&& visit, RunParameters& o) {
   describe_results(visit, o);
+  visit("loops", o.loops, "bool", "close loops, and write what comes of it beside the rest");
   visit("threads", o.threads, "count", "images prepared at once; changes no result");
   visit("progress", o.progress, "bool", "progress bar on a terminal");
   visit("quiet", o.quiet, "bool", "no notes and warnings");
@@ -68,6 +69,7 @@ struct ResultParameters {
 template <class Visitor>
 void describe(Visitor&& visit, ResultParameters& o) {
   describe_results(visit, o.run);
+  if (o.run.loops) visit("loops", o.run.loops, "bool", "loops were looked for");
 }
 
 }  // namespace
@@ -107,6 +109,7 @@ ParameterTable RunOptions::table() {
   ParameterTable table;
   table.add("source", source);
   table.add("front_end", front_end);
+  table.add("loops", loops);
   table.add("run", run);
   return table;
 }
@@ -116,6 +119,7 @@ std::string RunOptions::result_parameters() {
   ParameterTable table;
   table.add("source", source);
   table.add("front_end", front_end);
+  if (run.loops) table.add("loops", loops);
   table.add("run", results);
   return table.to_yaml(true);
 }
@@ -125,6 +129,7 @@ void RunOptions::validate() {
   try {
     table().check_bounds();
     front_end.validate();
+    loops.validate();
     if (run.threads < 1) {
       throw std::invalid_argument("run.threads = " + std::to_string(run.threads) +
                                   ", must be at least 1");

@@ -162,7 +162,7 @@ PinholeCamera with_longer_focal(PinholeCamera camera, double factor) {
 }
 
 /// Every name that a run may write.
-constexpr std::array<const char*, 16> kResults{"trajectory_camera.kitti",
+constexpr std::array<const char*, 21> kResults{"trajectory_camera.kitti",
                                                "trajectory_camera.tum",
                                                "trajectory_vehicle.tum",
                                                "relative_poses.csv",
@@ -173,6 +173,11 @@ constexpr std::array<const char*, 16> kResults{"trajectory_camera.kitti",
                                                "graph.g2o",
                                                "map.simplemap",
                                                "points.ply",
+                                               "loops.csv",
+                                               "trajectory_optimised_camera.kitti",
+                                               "trajectory_optimised_camera.tum",
+                                               "trajectory_optimised_vehicle.tum",
+                                               "keyframes_optimised.tum",
                                                "mask.png",
                                                kCameraFile,
                                                "params.yaml",
