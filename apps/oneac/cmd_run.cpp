@@ -139,7 +139,7 @@ void add_run(CLI::App& program) {
   add_key(*verb, "--seed", "run.seed", flags->settings, "seed of methods that draw random numbers");
   add_key(*verb, "--threads", "run.threads", flags->settings, "images prepared at once");
   verb->add_flag("--loops", flags->loops,
-                 "find places seen again and close the drive by them (docs/loops.md)");
+                 "find places seen again, measure them in metres, close the drive by them");
   verb->add_flag("--gui", flags->gui, "show the drive in a window while it is computed");
   verb->add_flag("--no-progress", flags->no_progress, "no progress bar");
   verb->add_flag("--quiet", flags->quiet, "no progress bar, notes or warnings");

@@ -19,6 +19,31 @@
 namespace oneac::app {
 namespace {
 
+/// A step as long as it is in the trajectory; one without metres may be of any length.
+OdometryStep to_odometry_step(const StepResult& step) {
+  OdometryStep out{step.pose, step.covariance};
+  if (step.metric || !(step.length > 0.0) || !(step.pose.t.norm() > 0.0)) return out;
+  const double factor = step.length / step.pose.t.norm();
+  out.T_2_1.t *= factor;
+  out.covariance.rightCols<3>() *= factor;
+  out.covariance.bottomRows<3>() *= factor;
+  out.covariance.bottomRightCorner<3, 3>() += out.T_2_1.t * out.T_2_1.t.transpose();
+  return out;
+}
+
+/// What the steps from one keyframe to the next add up to; zero over a loss of tracking.
+Eigen::Matrix<double, 6, 6> covariance_between(const Keyframe& before, const Keyframe& keyframe,
+                                               const DriveRecord& record) {
+  std::vector<OdometryStep> steps;
+  if (before.segment != keyframe.segment) return covariance_of_steps(steps);
+  for (std::size_t i = before.frame + 1; i <= keyframe.frame; ++i) {
+    const auto& step = record.frames.at(i).step;
+    if (!step || step->status == StepStatus::kPredicted) return covariance_of_steps({});
+    steps.push_back(to_odometry_step(*step));
+  }
+  return covariance_of_steps(steps);
+}
+
 LoopKeyframe to_loop_keyframe(const Keyframe& keyframe, const DriveRecord& record) {
   LoopKeyframe out;
   out.id = keyframe.id;
@@ -27,7 +52,6 @@ LoopKeyframe to_loop_keyframe(const Keyframe& keyframe, const DriveRecord& recor
   out.segment = keyframe.segment;
   out.metric = keyframe.metric;
   out.T_first_cam = keyframe.T_first_cam;
-  out.information = keyframe.information;
   const auto& step = record.frames.at(keyframe.frame).step;
   out.scale_sigma = step && step->metric ? step->length_sigma : record.common_length_sigma;
   return out;
@@ -113,7 +137,7 @@ Eigen::Isometry3d blended(const Eigen::Isometry3d& a, const Eigen::Isometry3d& b
   return T;
 }
 
-/// The frames where the closed keyframes bring them.
+/// The frames where the closed keyframes bring them. @pre there are keyframes
 std::vector<Eigen::Isometry3d> moved_frames(const DriveRecord& record,
                                             const std::vector<Eigen::Isometry3d>& closed) {
   std::vector<Eigen::Isometry3d> frames;
@@ -125,8 +149,8 @@ std::vector<Eigen::Isometry3d> moved_frames(const DriveRecord& record,
     const auto by = [&](std::size_t k) {
       return closed[k] * keyframes[k].T_first_cam.inverse() * T;
     };
-    if (keyframes.empty() || next == 0) {
-      frames.push_back(keyframes.empty() ? T : by(0));
+    if (next == 0) {
+      frames.push_back(by(0));
     } else if (next == keyframes.size()) {
       frames.push_back(by(next - 1));
     } else {
@@ -136,6 +160,18 @@ std::vector<Eigen::Isometry3d> moved_frames(const DriveRecord& record,
     }
   }
   return frames;
+}
+
+/// The keyframes without points, their edges as uncertain as the graph was solved with.
+std::vector<Keyframe> chain_of(const DriveRecord& record, const ClosedDrive& closed) {
+  std::vector<Keyframe> chain;
+  for (std::size_t i = 0; i < record.keyframes.size(); ++i) {
+    Keyframe& keyframe = chain.emplace_back();
+    keyframe.id = record.keyframes[i].id;
+    keyframe.T_first_cam = record.keyframes[i].T_first_cam;
+    keyframe.information = g2o_information(closed.keyframes[i]);
+  }
+  return chain;
 }
 
 }  // namespace
@@ -171,6 +207,9 @@ ClosedDrive close_loops(const DriveRecord& record, const RunOptions& options) {
   ClosedDrive closed;
   for (const Keyframe& keyframe : record.keyframes) {
     closed.keyframes.push_back(to_loop_keyframe(keyframe, record));
+    if (closed.keyframes.size() == 1) continue;
+    const Keyframe& before = record.keyframes[closed.keyframes.size() - 2];
+    closed.keyframes.back().covariance = covariance_between(before, keyframe, record);
   }
   FoundLoops found;
   try {
@@ -184,7 +223,8 @@ ClosedDrive close_loops(const DriveRecord& record, const RunOptions& options) {
   closed.report = found.report;
   closed.graph = optimise_pose_graph(closed.keyframes, found.loops);
   closed.report.contradicted += found.loops.size() - closed.graph.loops.size();
-  closed.frames = moved_frames(record, closed.graph.T_first_cam);
+  closed.frames = closed.graph.loops.empty() ? record.camera_trajectory().poses
+                                             : moved_frames(record, closed.graph.T_first_cam);
   return closed;
 }
 
@@ -202,8 +242,8 @@ void write_closed_drive(const DriveRecord& record, const ClosedDrive& closed,
   DriveRecord moved;
   moved.keyframes = closed.moved_keyframes(record);
   write("keyframes_optimised.tum", format_tum(moved.keyframe_trajectory()));
-  write("graph.g2o",
-        format_g2o(record.keyframes) + format_g2o_loops(closed.graph.loops, closed.keyframes));
+  write("graph.g2o", format_g2o(chain_of(record, closed)) +
+                         format_g2o_loops(closed.graph.loops, closed.keyframes));
   write_file_atomically(folder / "points.ply",
                         [&](std::ostream& out) { write_ply(moved.keyframes, out); });
   write("map.simplemap", format_simple_map(moved.keyframes, record.mount(), record.camera));

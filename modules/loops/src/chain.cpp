@@ -29,18 +29,35 @@ Matrix6 carried(const Matrix6& covariance, const Eigen::Isometry3d& T) {
   return A * covariance * A.transpose();
 }
 
-/// Half angles become angles.
-Matrix6 covariance_of_g2o(const Matrix6& information) {
-  Matrix6 covariance = Matrix6::Zero();
-  covariance.diagonal().head<3>().setConstant(kAnywhere_m2);
-  covariance.diagonal().tail<3>().setConstant(kAnyHeading);
-  const Eigen::LDLT<Matrix6> solver(information);
-  if (information.isZero() || !solver.isPositive()) return covariance;
-  const Matrix6 inverse = solver.solve(Matrix6::Identity());
-  if (!inverse.allFinite()) return covariance;
+Matrix6 known_or_anything(const Matrix6& covariance) {
+  if (!covariance.isZero() && covariance.allFinite()) return covariance;
+  Matrix6 anything = Matrix6::Zero();
+  anything.diagonal().head<3>().setConstant(kAnywhere_m2);
+  anything.diagonal().tail<3>().setConstant(kAnyHeading);
+  return anything;
+}
+
+/// Angles become half angles, as the vector part of a quaternion has them.
+Matrix6 information_of(const Matrix6& covariance) {
   Vector6 scale;
   scale << 1.0, 1.0, 1.0, 2.0, 2.0, 2.0;
-  return scale.asDiagonal() * inverse * scale.asDiagonal();
+  const Matrix6 information = covariance.ldlt().solve(Matrix6::Identity());
+  const Matrix6 halves = scale.asDiagonal() * information * scale.asDiagonal();
+  return 0.5 * (halves + halves.transpose());
+}
+
+/// T_1_2 out of T_2_1: δ = T_2_1 (exp([w]×) R, t + v)⁻¹, translation −v + w × t, rotation −w.
+UncertainPose inverse_of(const RelativePose& T_2_1, const Matrix6& covariance) {
+  UncertainPose pose;
+  const RelativePose T_1_2 = T_2_1.inverse();
+  pose.T.linear() = T_1_2.R;
+  pose.T.translation() = T_1_2.t;
+  Matrix6 J = Matrix6::Zero();
+  J.topLeftCorner<3, 3>() = -cross_matrix(T_2_1.t);
+  J.topRightCorner<3, 3>() = -Eigen::Matrix3d::Identity();
+  J.bottomLeftCorner<3, 3>() = -Eigen::Matrix3d::Identity();
+  pose.covariance = J * covariance * J.transpose();
+  return pose;
 }
 
 }  // namespace
@@ -61,17 +78,7 @@ Vector6 small_motion(const Eigen::Isometry3d& T) {
 }
 
 UncertainPose of_loop(const LoopConstraint& loop) {
-  UncertainPose pose;
-  const RelativePose T_1_2 = loop.T_2_1.inverse();
-  pose.T.linear() = T_1_2.R;
-  pose.T.translation() = T_1_2.t;
-  // δ = T_2_1 (exp([w]×) R, t + v)⁻¹: translation −v + w × t, rotation −w.
-  Matrix6 J = Matrix6::Zero();
-  J.topLeftCorner<3, 3>() = -cross_matrix(loop.T_2_1.t);
-  J.topRightCorner<3, 3>() = -Eigen::Matrix3d::Identity();
-  J.bottomLeftCorner<3, 3>() = -Eigen::Matrix3d::Identity();
-  pose.covariance = J * loop.covariance * J.transpose();
-  return pose;
+  return inverse_of(loop.T_2_1, loop.covariance);
 }
 
 void Chain::add(const LoopKeyframe& keyframe) {
@@ -79,7 +86,7 @@ void Chain::add(const LoopKeyframe& keyframe) {
   Matrix6 sum = Matrix6::Zero();
   double driven = 0.0;
   if (!poses_.empty()) {
-    sum = sums_.back() + carried(covariance_of_g2o(keyframe.information), here);
+    sum = sums_.back() + carried(known_or_anything(keyframe.covariance), here);
     driven = driven_.back() + (here.translation() - poses_.back().translation()).norm();
   }
   poses_.push_back(here);
@@ -120,13 +127,20 @@ UncertainPose Chain::between(std::size_t a, std::size_t b) const {
 
 namespace oneac {
 
+Eigen::Matrix<double, 6, 6> covariance_of_steps(const std::vector<OdometryStep>& steps) {
+  internal::UncertainPose way;
+  for (const OdometryStep& step : steps) {
+    way = way * internal::inverse_of(step.T_2_1, step.covariance);
+  }
+  return way.covariance;
+}
+
+Eigen::Matrix<double, 6, 6> g2o_information(const LoopKeyframe& keyframe) {
+  return internal::information_of(internal::known_or_anything(keyframe.covariance));
+}
+
 Eigen::Matrix<double, 6, 6> g2o_information(const LoopConstraint& loop) {
-  internal::Vector6 scale;
-  scale << 1.0, 1.0, 1.0, 2.0, 2.0, 2.0;
-  const internal::Matrix6 information =
-      internal::of_loop(loop).covariance.ldlt().solve(internal::Matrix6::Identity());
-  const internal::Matrix6 halves = scale.asDiagonal() * information * scale.asDiagonal();
-  return 0.5 * (halves + halves.transpose());
+  return internal::information_of(internal::of_loop(loop).covariance);
 }
 
 }  // namespace oneac

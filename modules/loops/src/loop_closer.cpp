@@ -103,7 +103,9 @@ class LoopCloser::Impl {
       if (!keyframes_[i].metric) continue;
       const auto most = static_cast<std::size_t>(options_.candidates);
       for (const AlikePlace& place : index.alike(i, end, most, kOnePlace)) {
-        if (keyframes_[place.keyframe].metric) queries[i].places.push_back(place.keyframe);
+        const bool usable = keyframes_[place.keyframe].metric;
+        if (usable && may_meet(place.keyframe, i, chain_))
+          queries[i].places.push_back(place.keyframe);
       }
     }
     return queries;

@@ -88,8 +88,8 @@ void add_edges(const std::vector<LoopKeyframe>& keyframes, const std::vector<Loo
   problem.SetParameterBlockConstant(blocks.front().data());
   for (std::size_t i = 1; i < keyframes.size(); ++i) {
     const Eigen::Isometry3d T = keyframes[i - 1].T_first_cam.inverse() * keyframes[i].T_first_cam;
-    problem.AddResidualBlock(edge_cost(T, keyframes[i].information), nullptr, blocks[i - 1].data(),
-                             blocks[i].data());
+    problem.AddResidualBlock(edge_cost(T, g2o_information(keyframes[i])), nullptr,
+                             blocks[i - 1].data(), blocks[i].data());
   }
   for (const LoopConstraint& loop : loops) {
     problem.AddResidualBlock(edge_cost(isometry(loop.T_2_1.inverse()), g2o_information(loop)),
@@ -117,9 +117,9 @@ double squared_error(const LoopConstraint& loop, const std::vector<Eigen::Isomet
 }
 
 bool can_be_solved(const std::vector<LoopKeyframe>& keyframes) {
-  for (std::size_t i = 1; i < keyframes.size(); ++i) {
-    const Eigen::LLT<Matrix6> root(keyframes[i].information);
-    if (root.info() != Eigen::Success || !keyframes[i].information.allFinite()) return false;
+  for (const LoopKeyframe& keyframe : keyframes) {
+    const Eigen::LLT<Matrix6> root(g2o_information(keyframe));
+    if (root.info() != Eigen::Success || !keyframe.T_first_cam.matrix().allFinite()) return false;
   }
   return !keyframes.empty();
 }

@@ -58,6 +58,11 @@ TEST_F(Agreement, TwoStoriesOfOneStretchThatAreEquallyGoodAreBothRefused) {
   EXPECT_LE(agreeing(loops, chain_, 2).size(), own);
 }
 
+TEST_F(Agreement, PlacesThatOdometryKnowsApartAreNotCompared) {
+  EXPECT_TRUE(may_meet(10, 10 + kLap, chain_));
+  EXPECT_FALSE(may_meet(10, 50, chain_));
+}
+
 TEST_F(Agreement, OdometryRefusesWhatItKnowsToBeElsewhere) {
   EXPECT_TRUE(is_possible(test::loop_between(truth_, 10, 10 + kLap), chain_));
   // The next street looks alike: keyframe 30 is 90 degrees and many metres from where 90 is.

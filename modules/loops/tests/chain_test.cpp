@@ -54,12 +54,24 @@ TEST(Chain, LengthsOfAStretchAreWrongByOneFactor) {
   EXPECT_LT(std::sqrt(way.covariance(1, 1)), 0.01 * 58.0);
 }
 
-TEST(Chain, KnowsNothingBeyondAStepWithoutInformation) {
+TEST(Chain, KnowsNothingBeyondAStepThatIsUnknown) {
   auto keyframes = test::drifted(test::square_drive(40.0, 1), 0.0);
-  keyframes[10].information.setZero();
+  keyframes[10].covariance.setZero();
   const Chain chain = test::chain_of(keyframes);
   EXPECT_GT(chain.between(9, 10).covariance(0, 0), 1e5);
   EXPECT_LT(chain.between(10, 12).covariance(0, 0), 1.0);
+}
+
+TEST(Chain, ErrorsOfStepsAddUpAsLoopsDo) {
+  const OdometryStep step{{yaw_rotation(std::cos(0.2), std::sin(0.2)), {0.1, 0.0, -2.0}},
+                          test::step_covariance()};
+  LoopConstraint loop;
+  loop.T_2_1 = step.T_2_1;
+  loop.covariance = step.covariance;
+  EXPECT_LT((covariance_of_steps({step}) - of_loop(loop).covariance).norm(), 1e-15);
+  const UncertainPose two = of_loop(loop) * of_loop(loop);
+  EXPECT_LT((covariance_of_steps({step, step}) - two.covariance).norm(), 1e-15);
+  EXPECT_TRUE(covariance_of_steps({}).isZero());
 }
 
 TEST(Chain, LoopIsTheInverseOfItsMotionWithItsUncertainty) {

@@ -23,13 +23,13 @@ inline Eigen::Isometry3d pose_at(double x, double z, double yaw_deg) {
   return T;
 }
 
-/// Information of a step, as g2o has it: 1σ of 2 cm and of 0.1 degrees.
-inline Eigen::Matrix<double, 6, 6> step_information() {
-  constexpr double kPosition = 0.02, kHalfTurn = 0.5 * 0.1 * kDegree;
-  Eigen::Matrix<double, 6, 6> information = Eigen::Matrix<double, 6, 6>::Zero();
-  information.diagonal().head<3>().setConstant(1.0 / (kPosition * kPosition));
-  information.diagonal().tail<3>().setConstant(1.0 / (kHalfTurn * kHalfTurn));
-  return information;
+/// Of a step: 1σ of 2 cm and of 0.1 degrees.
+inline Eigen::Matrix<double, 6, 6> step_covariance() {
+  constexpr double kPosition = 0.02, kTurn = 0.1 * kDegree;
+  Eigen::Matrix<double, 6, 6> covariance = Eigen::Matrix<double, 6, 6>::Zero();
+  covariance.diagonal().head<3>().setConstant(kPosition * kPosition);
+  covariance.diagonal().tail<3>().setConstant(kTurn * kTurn);
+  return covariance;
 }
 
 /// The truth of a drive round a square of `side` metres, keyframes 2 m apart, `laps` times.
@@ -58,7 +58,7 @@ inline std::vector<LoopKeyframe> drifted(const std::vector<Eigen::Isometry3d>& t
     keyframe.time_s = static_cast<double>(i);
     keyframe.metric = true;
     keyframe.T_first_cam = T;
-    if (i > 0) keyframe.information = step_information();
+    if (i > 0) keyframe.covariance = step_covariance();
     keyframe.scale_sigma = 0.01;
     keyframes.push_back(keyframe);
   }
