@@ -3,6 +3,7 @@
 #include "run/run_drive.h"
 #include "run/run_georeference.h"
 #include "run/run_gui.h"
+#include "run/run_loops.h"
 #include "run/run_options.h"
 #include "run/run_outputs.h"
 #include "run/run_report.h"
@@ -22,6 +23,7 @@
 #include <filesystem>
 #include <iostream>
 #include <memory>
+#include <optional>
 #include <stdexcept>
 
 namespace oneac::app {
@@ -37,6 +39,7 @@ struct RunFlags {
   bool no_progress = false;
   bool quiet = false;
   bool gui = false;
+  bool loops = false;
 };
 
 bool learns_camera(const RunOptions& options) {
@@ -44,23 +47,26 @@ bool learns_camera(const RunOptions& options) {
 }
 
 /// The line that ends a run.
-std::string files_text(const DriveRecord& record, const RunOptions& options, bool joined,
-                       bool camera) {
+std::string files_text(const DriveRecord& record, const std::optional<ClosedDrive>& closed,
+                       const RunOptions& options, bool joined, bool camera) {
   std::string text =
       "written to " + options.output +
       ": trajectory_camera.kitti, trajectory_camera.tum, trajectory_vehicle.tum, "
       "relative_poses.csv, covariance.csv, tilt.csv, timings.csv, summary.json, report.html, "
       "params.yaml, files.json";
   if (!record.keyframes.empty()) text += ", keyframes.tum, graph.g2o, map.simplemap, points.ply";
+  if (closed) text += names_of_closed_drive(record);
   if (camera) text += ", camera.ini";
   if (joined) text += ", trajectory.gpx, trajectory.kml";
   if (joined && options.run.georeference) text += ", trajectory_enu.tum";
   return text + (record.car_mask.empty() ? "\n" : ", mask.png\n");
 }
 
-void write_all(const DriveRecord& record, RunOptions& options, double wall_seconds) {
+void write_all(const DriveRecord& record, const std::optional<ClosedDrive>& closed,
+               RunOptions& options, double wall_seconds) {
   const std::filesystem::path folder(options.output);
   write_drive(record, folder);
+  if (closed) write_closed_drive(record, *closed, folder);
   const std::string camera =
       learns_camera(options) ? used_camera_ini(record, options.log) : std::string();
   if (!camera.empty()) write_file_atomically(folder / "camera.ini", camera);
@@ -71,12 +77,15 @@ void write_all(const DriveRecord& record, RunOptions& options, double wall_secon
   if (options.run.georeference && !joined.found && !options.run.quiet) {
     std::cerr << "oneac: the drive is not joined to the GPS: " << printable(joined.reason) << '\n';
   }
-  const std::string summary = summary_json(record, evaluation, options, wall_seconds);
+  const ClosedDrive* loops = closed ? &*closed : nullptr;
+  const std::string summary = summary_json(record, evaluation, options, wall_seconds, loops);
   write_file_atomically(folder / "summary.json", summary);
-  write_file_atomically(folder / "report.html", report_html(record, evaluation, options, summary));
+  write_file_atomically(folder / "report.html",
+                        report_html(record, evaluation, options, summary, loops));
   write_file_atomically(folder / "files.json", manifest_json(folder, record.has_scale()));
   std::cout << summary_text(record, evaluation)
-            << files_text(record, options, joined.found, !camera.empty());
+            << (closed ? text_about(*closed, record, evaluation.reference_file) : std::string())
+            << files_text(record, closed, options, joined.found, !camera.empty());
 }
 
 /// Before the results of an earlier run are taken away: a mistyped name costs nobody a drive.
@@ -95,6 +104,7 @@ void run(RunFlags& flags) {
   }
   if (flags.no_progress) options.run.progress = false;
   if (flags.quiet) options.run.quiet = true;
+  if (flags.loops) options.run.loops = true;
   options.validate();
   if (options.log.empty()) throw InputError("run", "no rawlog given", "oneac run LOG -o DIR");
   if (options.output.empty()) throw InputError("run", "no output folder given", "add -o DIR");
@@ -108,14 +118,18 @@ void run(RunFlags& flags) {
   const auto start = std::chrono::steady_clock::now();
   RunObserver observer;
   if (gui) observer = [&](const RunMoment& moment) { gui->show(moment); };
-  const DriveRecord record = run_drive(options, observer);
+  DriveRecord record = run_drive(options, observer);
+  std::optional<ClosedDrive> closed;
+  if (options.run.loops && !record.frames.empty()) closed = close_loops(record, options);
+  record.interrupted = record.interrupted || (closed && interrupted());
   const std::chrono::duration<double> wall = std::chrono::steady_clock::now() - start;
   if (!options.run.quiet) {
     for (const std::string& note : notes_about(record))
       std::cerr << "oneac: " << printable(note) << '\n';
+    if (closed && !closed->note.empty()) std::cerr << "oneac: " << printable(closed->note) << '\n';
   }
   fail_if_empty(record, options.log);
-  write_all(record, options, wall.count());
+  write_all(record, closed, options, wall.count());
   if (gui && !record.interrupted) gui->wait(record);
   fail_if_incomplete(record);
 }
@@ -144,6 +158,8 @@ void add_run(CLI::App& program) {
   verb->add_flag_callback(
       "--georeference", [flags] { flags->settings.emplace_back("run.georeference=true"); },
       "write trajectory_enu.tum as well: the vehicle's way in the frame of the log's GPS");
+  verb->add_flag("--loops", flags->loops,
+                 "find places seen again, measure them in metres, close the drive by them");
   verb->add_flag("--gui", flags->gui, "show the drive in a window while it is computed");
   verb->add_flag("--no-progress", flags->no_progress, "no progress bar");
   verb->add_flag("--quiet", flags->quiet, "no progress bar, notes or warnings");

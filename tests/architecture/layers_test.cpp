@@ -26,6 +26,7 @@ const std::map<std::string, std::set<std::string>> kMayInclude = {
     {"features", {"geometry", "base"}},
     {"refine", {"geometry", "base"}},
     {"calibration", {"geometry", "base"}},
+    {"loops", {"features", "refine", "robust", "solvers", "geometry", "base"}},
     {"mrpt_compat", {}},
     {"observations", {"geometry", "base", "mrpt_compat"}},
     {"initialisers", {"robust", "solvers", "geometry", "base", "mrpt_compat"}},

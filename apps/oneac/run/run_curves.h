@@ -30,6 +30,10 @@ struct PlaneAlignment {
 /// align_in_plane. A way without scale takes that of the reference.
 [[nodiscard]] Plot plan_of(const DriveRecord& record, const RunEvaluation& evaluation);
 
+/// The way before and after it was closed, a line per loop, the reference laid over the latter.
+[[nodiscard]] Plot plan_of_loops(const DriveRecord& record, const RunEvaluation& evaluation,
+                                 const ClosedDrive& closed);
+
 /// Speed, yaw rate, scale, tilt, correspondences, and pair errors when there is a reference.
 [[nodiscard]] std::vector<Plot> plots_of(const DriveRecord& record,
                                          const RunEvaluation& evaluation);

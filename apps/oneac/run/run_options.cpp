@@ -39,6 +39,7 @@ void describe_results(Visitor&& visit, RunParameters& o) {
 template <class Visitor>
 void describe(Visitor&& visit, RunParameters& o) {
   describe_results(visit, o);
+  visit("loops", o.loops, "bool", "close loops, and write what comes of it beside the rest");
   visit("threads", o.threads, "count", "images prepared at once; changes no result");
   visit("progress", o.progress, "bool", "progress bar on a terminal");
   visit("quiet", o.quiet, "bool", "no notes and warnings");
@@ -70,6 +71,7 @@ struct ResultParameters {
 template <class Visitor>
 void describe(Visitor&& visit, ResultParameters& o) {
   describe_results(visit, o.run);
+  if (o.run.loops) visit("loops", o.run.loops, "bool", "loops were looked for");
 }
 
 }  // namespace
@@ -109,6 +111,7 @@ ParameterTable RunOptions::table() {
   ParameterTable table;
   table.add("source", source);
   table.add("front_end", front_end);
+  table.add("loops", loops);
   table.add("run", run);
   return table;
 }
@@ -118,6 +121,7 @@ std::string RunOptions::result_parameters() {
   ParameterTable table;
   table.add("source", source);
   table.add("front_end", front_end);
+  if (run.loops) table.add("loops", loops);
   table.add("run", results);
   return table.to_yaml(true);
 }
@@ -127,6 +131,7 @@ void RunOptions::validate() {
   try {
     table().check_bounds();
     front_end.validate();
+    loops.validate();
     if (run.threads < 1) {
       throw std::invalid_argument("run.threads = " + std::to_string(run.threads) +
                                   ", must be at least 1");

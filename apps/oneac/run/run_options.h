@@ -2,6 +2,7 @@
 
 #include "oneac/base/parameter_table.h"
 #include "oneac/frontend/front_end_options.h"
+#include "oneac/loops/loop_options.h"
 #include "oneac/rawlog/rawlog_source.h"
 
 #include <cstddef>
@@ -35,6 +36,7 @@ struct RunParameters {
   std::string reference;  ///< true poses; "" looks beside the log, then takes the log's GPS
   int seed = 0;           ///< for methods that draw random numbers; the one-AC consensus does not
   bool georeference = false;  ///< the way in the frame of the GPS, too
+  bool loops = false;         ///< look for places seen again and close the drive by them
   int threads = 2;            ///< images prepared at once
   bool progress = true;
   bool quiet = false;
@@ -46,6 +48,7 @@ struct RunOptions {
   std::string output;
   SourceParameters source;
   FrontEndOptions front_end;
+  LoopOptions loops;
   RunParameters run;
   std::optional<PinholeCamera> camera_model;  ///< instead of source.calibration; no parameter
 

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace oneac::app {
 namespace {
@@ -124,6 +125,35 @@ Plot plan_of(const DriveRecord& record, const RunEvaluation& evaluation) {
     plan.series.push_back(series_of(laid.label, laid.pen, laid.path));
   }
   if (!keyframes.empty()) plan.series.push_back(series_of("keyframes", Pen::kRings, keyframes));
+  return plan;
+}
+
+Plot plan_of_loops(const DriveRecord& record, const RunEvaluation& evaluation,
+                   const ClosedDrive& closed) {
+  Plot plan{"Before and after, first heading up", "m", "", {}, false, Axes::kPlan};
+  const Eigen::Matrix3d R = record.mount().linear();
+  Points before, after;
+  for (std::size_t i = 0; i < record.frames.size(); ++i) {
+    before.push_back(from_above(R, record.frames[i].T_first_cam.translation()));
+    after.push_back(from_above(R, closed.frames[i].translation()));
+  }
+  plan.series = {series_of("after", Pen::kLine, after), series_of("before", Pen::kLine, before)};
+  PlotSeries loops{"loops", {}, {}, Pen::kLine};
+  for (const LoopConstraint& loop : closed.graph.loops) {
+    for (const std::size_t end : {loop.first, loop.second}) {
+      const Eigen::Vector2d p = from_above(R, record.keyframes[end].T_first_cam.translation());
+      loops.x.push_back(p.x());
+      loops.y.push_back(p.y());
+    }
+    loops.x.push_back(std::numeric_limits<double>::quiet_NaN());
+    loops.y.push_back(std::numeric_limits<double>::quiet_NaN());
+  }
+  plan.series.push_back(loops);
+  Laid laid = laid_poses(record, evaluation, after);
+  if (laid.path.empty()) return plan;
+  const PlaneAlignment onto = align_in_plane(laid.path, laid.estimate, false);
+  for (Eigen::Vector2d& point : laid.path) point = onto * point;
+  plan.series.push_back(series_of(laid.label, laid.pen, laid.path));
   return plan;
 }
 

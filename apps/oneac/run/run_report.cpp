@@ -113,6 +113,20 @@ void add_curves(HtmlPage& page, const DriveRecord& record, const RunEvaluation& 
   page.figures(svgs);
 }
 
+void add_loops(HtmlPage& page, const DriveRecord& record, const RunEvaluation& evaluation,
+               const ClosedDrive& closed) {
+  page.heading("Loops");
+  const std::size_t count = closed.graph.loops.size();
+  if (!closed.note.empty()) page.warning(closed.note);
+  page.paragraph(
+      count == 0 ? "No place of this drive was seen again so that its images prove it; the closed "
+                   "trajectory is that of the odometry."
+                 : std::to_string(count) +
+                       " pairs of keyframes show one place (loops.csv); the drive before and after "
+                       "it was closed by them (trajectory_optimised_camera.tum).");
+  if (count > 0) page.figures({plot_svg(plan_of_loops(record, evaluation, closed))});
+}
+
 void add_pictures(HtmlPage& page, const DriveRecord& record, const RunEvaluation& evaluation,
                   const RunOptions& options) {
   const std::vector<WorstFrame> frames = worst_frames(record, evaluation, kPictures);
@@ -165,12 +179,14 @@ void add_car(HtmlPage& page, const DriveRecord& record, const RunOptions& option
 }  // namespace
 
 std::string report_html(const DriveRecord& record, const RunEvaluation& evaluation,
-                        const RunOptions& options, const std::string& summary_text) {
+                        const RunOptions& options, const std::string& summary_text,
+                        const ClosedDrive* closed) {
   const Json summary = Json::parse(summary_text);
   HtmlPage page("oneac run", options.log + " · oneac " + version());
   add_warnings(page, record);
   page.tiles(tiles_of(record, evaluation, summary));
   add_curves(page, record, evaluation);
+  if (closed != nullptr) add_loops(page, record, evaluation, *closed);
   add_pictures(page, record, evaluation, options);
   add_car(page, record, options);
   page.heading("Summary");

@@ -14,7 +14,9 @@ inline constexpr const char* kTimingHeading = "Timing";
 /// report.html of a run: one file that needs nothing else. Way over the reference, curves over
 /// time, worst frames as pictures (read from the log once more), the summary, timing last.
 /// @param summary  the text of summary.json
+/// @param closed   where loops were looked for: a section of its own
 [[nodiscard]] std::string report_html(const DriveRecord& record, const RunEvaluation& evaluation,
-                                      const RunOptions& options, const std::string& summary);
+                                      const RunOptions& options, const std::string& summary,
+                                      const ClosedDrive* closed = nullptr);
 
 }  // namespace oneac::app

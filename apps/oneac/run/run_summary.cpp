@@ -211,6 +211,23 @@ Json timing_json(const DriveRecord& record, const RunOptions& options, double wa
           {"refine", stage_json(refine)}};
 }
 
+Json loops_json(const ClosedDrive& closed, const DriveRecord& record,
+                const RunEvaluation& evaluation) {
+  const LoopReport& report = closed.report;
+  Json json = {{"loops", closed.graph.loops.size()},
+               {"keyframes", report.keyframes},
+               {"keyframes_not_metric", report.not_metric},
+               {"pairs_alike", report.candidates},
+               {"pairs_verified", report.verified},
+               {"refused_by_odometry", report.impossible},
+               {"refused_by_other_loops", report.contradicted}};
+  const auto after = evaluate_closed(closed, record, evaluation.reference_file);
+  if (!after || !after->trajectory || !evaluation.against_poses->trajectory) return json;
+  json["ape_before_m"] = evaluation.against_poses->trajectory->ape.rmse;
+  json["ape_after_m"] = after->trajectory->ape.rmse;
+  return json;
+}
+
 }  // namespace
 
 RunEvaluation evaluate_record(const DriveRecord& record, const RunOptions& options) {
@@ -229,7 +246,8 @@ RunEvaluation evaluate_record(const DriveRecord& record, const RunOptions& optio
 }
 
 std::string summary_json(const DriveRecord& record, const RunEvaluation& evaluation,
-                         const RunOptions& options, double wall_seconds) {
+                         const RunOptions& options, double wall_seconds,
+                         const ClosedDrive* closed) {
   Json json;
   json["version"] = version();
   json["log"] = options.log;
@@ -260,6 +278,7 @@ std::string summary_json(const DriveRecord& record, const RunEvaluation& evaluat
   if (evaluation.gps_lag_s) reference["gps"]["lag_s"] = *evaluation.gps_lag_s;
   json["reference"] = reference;
   json["georeference"] = georeference_json(record, evaluation.georeference);
+  if (closed != nullptr) json["loops"] = loops_json(*closed, record, evaluation);
   json["timing"] = timing_json(record, options, wall_seconds);
   return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }

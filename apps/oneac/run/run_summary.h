@@ -1,6 +1,7 @@
 #pragma once
 
 #include "drive_record.h"
+#include "run_loops.h"
 #include "run_options.h"
 
 #include "oneac/evaluation/evaluate.h"
@@ -32,9 +33,11 @@ struct RunEvaluation {
 /// `poses.txt`), and with the log's GPS. @throws InputError when --reference cannot be read
 [[nodiscard]] RunEvaluation evaluate_record(const DriveRecord& record, const RunOptions& options);
 
-/// summary.json. Only the object "timing" may differ between runs of the same input and parameters.
+/// summary.json; with `loops` where they were looked for. Only the object "timing" may differ
+/// between runs of the same input and parameters.
 [[nodiscard]] std::string summary_json(const DriveRecord& record, const RunEvaluation& evaluation,
-                                       const RunOptions& options, double wall_seconds);
+                                       const RunOptions& options, double wall_seconds,
+                                       const ClosedDrive* closed = nullptr);
 
 /// The few lines that `oneac run` prints.
 [[nodiscard]] std::string summary_text(const DriveRecord& record, const RunEvaluation& evaluation);

@@ -1,0 +1,282 @@
+#include "run_loops.h"
+
+#include "terminal/interrupt.h"
+#include "terminal/progress_bar.h"
+
+#include "oneac/base/atomic_file.h"
+#include "oneac/base/error.h"
+#include "oneac/base/number_text.h"
+#include "oneac/base/ordered_pipeline.h"
+#include "oneac/frontend/map_formats.h"
+#include "oneac/geometry/levelling.h"
+#include "oneac/loops/loop_formats.h"
+
+#include <algorithm>
+#include <cstddef>
+#include <map>
+#include <utility>
+
+namespace oneac::app {
+namespace {
+
+/// A step as long as it is in the trajectory; one without metres may be of any length.
+OdometryStep to_odometry_step(const StepResult& step) {
+  OdometryStep out{step.pose, step.covariance};
+  if (step.metric || !(step.length > 0.0) || !(step.pose.t.norm() > 0.0)) return out;
+  const double factor = step.length / step.pose.t.norm();
+  out.T_2_1.t *= factor;
+  out.covariance.rightCols<3>() *= factor;
+  out.covariance.bottomRows<3>() *= factor;
+  out.covariance.bottomRightCorner<3, 3>() += out.T_2_1.t * out.T_2_1.t.transpose();
+  return out;
+}
+
+/// What the steps from one keyframe to the next add up to; zero over a loss of tracking.
+Eigen::Matrix<double, 6, 6> covariance_between(const Keyframe& before, const Keyframe& keyframe,
+                                               const DriveRecord& record) {
+  std::vector<OdometryStep> steps;
+  if (before.segment != keyframe.segment) return covariance_of_steps(steps);
+  for (std::size_t i = before.frame + 1; i <= keyframe.frame; ++i) {
+    const auto& step = record.frames.at(i).step;
+    if (!step || step->status == StepStatus::kPredicted) return covariance_of_steps({});
+    steps.push_back(to_odometry_step(*step));
+  }
+  return covariance_of_steps(steps);
+}
+
+LoopKeyframe to_loop_keyframe(const Keyframe& keyframe, const DriveRecord& record) {
+  LoopKeyframe out;
+  out.id = keyframe.id;
+  out.index = keyframe.index;
+  out.time_s = keyframe.time_s;
+  out.segment = keyframe.segment;
+  out.metric = keyframe.metric;
+  out.T_first_cam = keyframe.T_first_cam;
+  const auto& step = record.frames.at(keyframe.frame).step;
+  out.scale_sigma = step && step->metric ? step->length_sigma : record.common_length_sigma;
+  return out;
+}
+
+LoopCamera camera_of(const DriveRecord& record, const RunOptions& options) {
+  LoopCamera camera;
+  camera.camera = record.camera;
+  const bool learned = options.front_end.self_calibration.refine != "off";
+  if (learned) camera.camera = record.camera_belief.used;
+  camera.R_level_cam = levelling_rotation(record.tilt);
+  camera.unused = record.car_mask;
+  camera.mask_polygon = options.front_end.features.mask.polygon;
+  camera.mask_image = options.front_end.features.mask.image;
+  return camera;
+}
+
+/// The log once more, for the images of keyframes alone.
+class KeyframeImages {
+ public:
+  KeyframeImages(const std::vector<LoopKeyframe>& keyframes, const RunOptions& options)
+      : keyframes_(keyframes), source_(source_options(options)) {
+    std::map<std::size_t, std::size_t> places;
+    for (std::size_t i = 0; i < keyframes.size(); ++i) places[keyframes[i].index] = i;
+    tickets_.resize(keyframes.size());
+    std::size_t found = 0;
+    while (found < places.size() && !interrupted()) {
+      const auto ticket = source_.next();
+      if (!ticket) return;
+      const auto at = places.find(ticket->index);
+      if (at == places.end()) continue;
+      tickets_[at->second] = *ticket;
+      ++found;
+    }
+  }
+
+  /// Any thread. @throws InputError where the image has gone
+  [[nodiscard]] GreyImage load(std::size_t place) const {
+    return tickets_[place] ? source_.load(*tickets_[place]).image : GreyImage{};
+  }
+
+ private:
+  static SourceOptions source_options(const RunOptions& options) {
+    SourceOptions source = options.source.for_log(options.log);
+    source.camera_model = options.camera_model;
+    return source;
+  }
+
+  const std::vector<LoopKeyframe>& keyframes_;
+  RawlogSource source_;
+  std::vector<std::optional<FrameTicket>> tickets_;
+};
+
+FoundLoops find_loops(const std::vector<LoopKeyframe>& keyframes, const DriveRecord& record,
+                      const RunOptions& options) {
+  const KeyframeImages images(keyframes, options);
+  LoopCloser closer(options.loops, camera_of(record, options),
+                    [&](std::size_t place) { return images.load(place); });
+  ProgressBar progress(options.run.progress && !options.run.quiet, "keyframes");
+  progress.expect(keyframes.size());
+  std::size_t at = 0, added = 0;
+  const auto next = [&]() -> std::optional<std::size_t> {
+    return at == keyframes.size() || interrupted() ? std::nullopt : std::optional(at++);
+  };
+  const auto detect = [&](std::size_t place) {
+    const GreyImage image = images.load(place);
+    return image.empty() ? AffineFeatures{} : closer.features(image.view());
+  };
+  const auto add = [&](const AffineFeatures& features) {
+    closer.add(keyframes[added++], features);
+    progress.update(added);
+    return true;
+  };
+  ordered_pipeline(next, detect, add, options.run.threads);
+  return interrupted() ? FoundLoops{} : closer.close(options.run.threads, interrupted);
+}
+
+/// Between two keyframes a frame moves by what both do, by its share of the time between them.
+Eigen::Isometry3d blended(const Eigen::Isometry3d& a, const Eigen::Isometry3d& b, double share) {
+  Eigen::Isometry3d T = Eigen::Isometry3d::Identity();
+  T.linear() = Eigen::Quaterniond(a.linear()).slerp(share, Eigen::Quaterniond(b.linear())).matrix();
+  T.translation() = (1.0 - share) * a.translation() + share * b.translation();
+  return T;
+}
+
+/// The frames where the closed keyframes bring them. @pre there are keyframes
+std::vector<Eigen::Isometry3d> moved_frames(const DriveRecord& record,
+                                            const std::vector<Eigen::Isometry3d>& closed) {
+  std::vector<Eigen::Isometry3d> frames;
+  const auto& keyframes = record.keyframes;
+  std::size_t next = 0;
+  for (std::size_t i = 0; i < record.frames.size(); ++i) {
+    const Eigen::Isometry3d& T = record.frames[i].T_first_cam;
+    while (next < keyframes.size() && keyframes[next].frame <= i) ++next;
+    const auto by = [&](std::size_t k) {
+      return closed[k] * keyframes[k].T_first_cam.inverse() * T;
+    };
+    if (next == 0) {
+      frames.push_back(by(0));
+    } else if (next == keyframes.size()) {
+      frames.push_back(by(next - 1));
+    } else {
+      const double begin = keyframes[next - 1].time_s, end = keyframes[next].time_s;
+      const double share = end > begin ? (record.frames[i].time_s - begin) / (end - begin) : 0.0;
+      frames.push_back(blended(by(next - 1), by(next), std::clamp(share, 0.0, 1.0)));
+    }
+  }
+  return frames;
+}
+
+/// The keyframes without points, their edges as uncertain as the graph was solved with.
+std::vector<Keyframe> chain_of(const DriveRecord& record, const ClosedDrive& closed) {
+  std::vector<Keyframe> chain;
+  for (std::size_t i = 0; i < record.keyframes.size(); ++i) {
+    Keyframe& keyframe = chain.emplace_back();
+    keyframe.id = record.keyframes[i].id;
+    keyframe.T_first_cam = record.keyframes[i].T_first_cam;
+    keyframe.information = g2o_information(closed.keyframes[i]);
+  }
+  return chain;
+}
+
+}  // namespace
+
+Trajectory ClosedDrive::camera_trajectory(const DriveRecord& record) const {
+  Trajectory trajectory = record.camera_trajectory();
+  trajectory.poses = frames;
+  return trajectory;
+}
+
+Trajectory ClosedDrive::vehicle_trajectory(const DriveRecord& record) const {
+  const Eigen::Isometry3d T = record.mount();
+  Trajectory trajectory = camera_trajectory(record);
+  for (Eigen::Isometry3d& pose : trajectory.poses) pose = T * pose * T.inverse();
+  return trajectory;
+}
+
+std::vector<Keyframe> ClosedDrive::moved_keyframes(const DriveRecord& record) const {
+  std::vector<Keyframe> moved = record.keyframes;
+  for (std::size_t i = 0; i < moved.size(); ++i) {
+    const Eigen::Isometry3f move =
+        (graph.T_first_cam[i] * moved[i].T_first_cam.inverse()).cast<float>();
+    moved[i].T_first_cam = graph.T_first_cam[i];
+    for (MapPoint& point : moved[i].points) {
+      point.position = move * point.position;
+      point.normal = move.linear() * point.normal;
+    }
+  }
+  return moved;
+}
+
+ClosedDrive close_loops(const DriveRecord& record, const RunOptions& options) {
+  ClosedDrive closed;
+  for (const Keyframe& keyframe : record.keyframes) {
+    closed.keyframes.push_back(to_loop_keyframe(keyframe, record));
+    if (closed.keyframes.size() == 1) continue;
+    const Keyframe& before = record.keyframes[closed.keyframes.size() - 2];
+    closed.keyframes.back().covariance = covariance_between(before, keyframe, record);
+  }
+  FoundLoops found;
+  try {
+    if (!closed.keyframes.empty() && !interrupted()) {
+      found = find_loops(closed.keyframes, record, options);
+    }
+  } catch (const InputError& error) {
+    closed.note = std::string("no loops: the images could not be read again: ") + error.what();
+    found = {};
+  }
+  closed.report = found.report;
+  closed.graph = optimise_pose_graph(closed.keyframes, found.loops);
+  closed.report.contradicted += found.loops.size() - closed.graph.loops.size();
+  closed.frames = closed.graph.loops.empty() ? record.camera_trajectory().poses
+                                             : moved_frames(record, closed.graph.T_first_cam);
+  return closed;
+}
+
+void write_closed_drive(const DriveRecord& record, const ClosedDrive& closed,
+                        const std::filesystem::path& folder) {
+  const Trajectory camera = closed.camera_trajectory(record);
+  const auto write = [&](const char* name, const std::string& text) {
+    write_file_atomically(folder / name, text);
+  };
+  write("loops.csv", format_loops(closed.graph.loops, closed.keyframes));
+  write("trajectory_optimised_camera.kitti", format_kitti(camera));
+  write("trajectory_optimised_camera.tum", format_tum(camera));
+  write("trajectory_optimised_vehicle.tum", format_tum(closed.vehicle_trajectory(record)));
+  if (record.keyframes.empty()) return;
+  DriveRecord moved;
+  moved.keyframes = closed.moved_keyframes(record);
+  write("keyframes_optimised.tum", format_tum(moved.keyframe_trajectory()));
+  write("graph.g2o", format_g2o(chain_of(record, closed)) +
+                         format_g2o_loops(closed.graph.loops, closed.keyframes));
+  write_file_atomically(folder / "points.ply",
+                        [&](std::ostream& out) { write_ply(moved.keyframes, out); });
+  write("map.simplemap", format_simple_map(moved.keyframes, record.mount(), record.camera));
+}
+
+std::string names_of_closed_drive(const DriveRecord& record) {
+  return std::string(
+             ", loops.csv, trajectory_optimised_camera.kitti, trajectory_optimised_camera.tum, "
+             "trajectory_optimised_vehicle.tum") +
+         (record.keyframes.empty() ? "" : ", keyframes_optimised.tum");
+}
+
+std::optional<Evaluation> evaluate_closed(const ClosedDrive& closed, const DriveRecord& record,
+                                          const std::string& reference_file) {
+  if (reference_file.empty() || record.frames.size() < 2) return std::nullopt;
+  return evaluate_run(record.relative_poses(), closed.camera_trajectory(record),
+                      read_trajectory(reference_file),
+                      record.has_scale() ? Alignment::kSe3 : Alignment::kSim3);
+}
+
+std::string text_about(const ClosedDrive& closed, const DriveRecord& record,
+                       const std::string& reference_file) {
+  std::string text = std::to_string(closed.graph.loops.size()) + " loops of " +
+                     std::to_string(closed.report.keyframes) + " keyframes";
+  if (closed.report.not_metric > 0) {
+    text +=
+        " (" + std::to_string(closed.report.not_metric) + " of them without metres: none there)";
+  }
+  const auto after = evaluate_closed(closed, record, reference_file);
+  if (after && after->trajectory && !closed.graph.loops.empty()) {
+    text += ", APE after them " + significant_text(after->trajectory->ape.rmse, 3) + " m (RMS)";
+  }
+  return text + '\n';
+}
+
+}  // namespace oneac::app

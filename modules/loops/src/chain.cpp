@@ -1,0 +1,146 @@
+#include "chain.h"
+
+#include <Eigen/Cholesky>
+#include <Eigen/LU>
+
+#include <algorithm>
+#include <cmath>
+
+namespace oneac::internal {
+namespace {
+
+// [m] of way over which an error of scale stays the same: that of the window and of the filter that
+// carries the scale, whose memory is some ten keyframes.
+constexpr double kScaleMemory_m = 60.0;
+// [m², rad²] of a step that nothing is known of: anywhere, any heading.
+constexpr double kAnywhere_m2 = 1e6, kAnyHeading = 10.0;
+
+/// Of (translation, rotation vector) on the right: through T, from its right to its left side.
+Matrix6 adjoint(const Eigen::Isometry3d& T) {
+  Matrix6 A = Matrix6::Zero();
+  A.topLeftCorner<3, 3>() = T.linear();
+  A.bottomRightCorner<3, 3>() = T.linear();
+  A.topRightCorner<3, 3>() = cross_matrix(T.translation()) * T.linear();
+  return A;
+}
+
+Matrix6 carried(const Matrix6& covariance, const Eigen::Isometry3d& T) {
+  const Matrix6 A = adjoint(T);
+  return A * covariance * A.transpose();
+}
+
+Matrix6 known_or_anything(const Matrix6& covariance) {
+  if (!covariance.isZero() && covariance.allFinite()) return covariance;
+  Matrix6 anything = Matrix6::Zero();
+  anything.diagonal().head<3>().setConstant(kAnywhere_m2);
+  anything.diagonal().tail<3>().setConstant(kAnyHeading);
+  return anything;
+}
+
+/// Angles become half angles, as the vector part of a quaternion has them.
+Matrix6 information_of(const Matrix6& covariance) {
+  Vector6 scale;
+  scale << 1.0, 1.0, 1.0, 2.0, 2.0, 2.0;
+  const Matrix6 information = covariance.ldlt().solve(Matrix6::Identity());
+  const Matrix6 halves = scale.asDiagonal() * information * scale.asDiagonal();
+  return 0.5 * (halves + halves.transpose());
+}
+
+/// T_1_2 out of T_2_1: δ = T_2_1 (exp([w]×) R, t + v)⁻¹, translation −v + w × t, rotation −w.
+UncertainPose inverse_of(const RelativePose& T_2_1, const Matrix6& covariance) {
+  UncertainPose pose;
+  const RelativePose T_1_2 = T_2_1.inverse();
+  pose.T.linear() = T_1_2.R;
+  pose.T.translation() = T_1_2.t;
+  Matrix6 J = Matrix6::Zero();
+  J.topLeftCorner<3, 3>() = -cross_matrix(T_2_1.t);
+  J.topRightCorner<3, 3>() = -Eigen::Matrix3d::Identity();
+  J.bottomLeftCorner<3, 3>() = -Eigen::Matrix3d::Identity();
+  pose.covariance = J * covariance * J.transpose();
+  return pose;
+}
+
+}  // namespace
+
+UncertainPose inverse(const UncertainPose& a) {
+  return {a.T.inverse(), carried(a.covariance, a.T)};
+}
+
+UncertainPose operator*(const UncertainPose& a, const UncertainPose& b) {
+  return {a.T * b.T, carried(a.covariance, b.T.inverse()) + b.covariance};
+}
+
+Vector6 small_motion(const Eigen::Isometry3d& T) {
+  const Eigen::AngleAxisd turn(T.linear());
+  Vector6 motion;
+  motion << T.translation(), turn.angle() * turn.axis();
+  return motion;
+}
+
+UncertainPose of_loop(const LoopConstraint& loop) {
+  return inverse_of(loop.T_2_1, loop.covariance);
+}
+
+void Chain::add(const LoopKeyframe& keyframe) {
+  const Eigen::Isometry3d& here = keyframe.T_first_cam;
+  Matrix6 sum = Matrix6::Zero();
+  double driven = 0.0;
+  if (!poses_.empty()) {
+    sum = sums_.back() + carried(known_or_anything(keyframe.covariance), here);
+    driven = driven_.back() + (here.translation() - poses_.back().translation()).norm();
+  }
+  poses_.push_back(here);
+  sums_.push_back(sum);
+  driven_.push_back(driven);
+  scale_sigma_.push_back(keyframe.scale_sigma);
+  const double begin = knots_.empty() ? 0.0 : driven_[knots_.back()];
+  if (driven - begin >= kScaleMemory_m) knots_.push_back(poses_.size() - 1);
+}
+
+Eigen::Matrix3d Chain::scale_covariance(std::size_t a, std::size_t b) const {
+  Eigen::Matrix3d sum = Eigen::Matrix3d::Zero();
+  const auto add = [&](std::size_t from, std::size_t to) {
+    const Eigen::Vector3d way =
+        scale_sigma_[to] * (poses_[to].translation() - poses_[from].translation());
+    sum += way * way.transpose();
+  };
+  auto knot = std::upper_bound(knots_.begin(), knots_.end(), a);
+  for (; knot != knots_.end() && *knot < b; ++knot) {
+    add(a, *knot);
+    a = *knot;
+  }
+  add(a, b);
+  return sum;
+}
+
+UncertainPose Chain::between(std::size_t a, std::size_t b) const {
+  if (a > b) return inverse(between(b, a));
+  UncertainPose pose;
+  pose.T = poses_[a].inverse() * poses_[b];
+  pose.covariance = carried(sums_[b] - sums_[a], poses_[b].inverse());
+  const Eigen::Matrix3d R = poses_[b].linear();
+  pose.covariance.topLeftCorner<3, 3>() += R.transpose() * scale_covariance(a, b) * R;
+  return pose;
+}
+
+}  // namespace oneac::internal
+
+namespace oneac {
+
+Eigen::Matrix<double, 6, 6> covariance_of_steps(const std::vector<OdometryStep>& steps) {
+  internal::UncertainPose way;
+  for (const OdometryStep& step : steps) {
+    way = way * internal::inverse_of(step.T_2_1, step.covariance);
+  }
+  return way.covariance;
+}
+
+Eigen::Matrix<double, 6, 6> g2o_information(const LoopKeyframe& keyframe) {
+  return internal::information_of(internal::known_or_anything(keyframe.covariance));
+}
+
+Eigen::Matrix<double, 6, 6> g2o_information(const LoopConstraint& loop) {
+  return internal::information_of(internal::of_loop(loop).covariance);
+}
+
+}  // namespace oneac

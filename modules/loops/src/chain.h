@@ -1,0 +1,54 @@
+#pragma once
+
+#include "oneac/geometry/relative_pose.h"
+#include "oneac/loops/loop_constraint.h"
+#include "oneac/loops/loop_keyframe.h"
+
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+
+#include <cstddef>
+#include <vector>
+
+namespace oneac::internal {
+
+using Matrix6 = Eigen::Matrix<double, 6, 6>;
+using Vector6 = Eigen::Matrix<double, 6, 1>;
+
+/// T_1_2 with the covariance of (translation, rotation vector) of a change on the right.
+struct UncertainPose {
+  Eigen::Isometry3d T = Eigen::Isometry3d::Identity();
+  Matrix6 covariance = Matrix6::Zero();
+};
+
+[[nodiscard]] UncertainPose inverse(const UncertainPose& a);
+/// T_1_3 of independent T_1_2 and T_2_3.
+[[nodiscard]] UncertainPose operator*(const UncertainPose& a, const UncertainPose& b);
+/// (translation, rotation vector) of a pose near the identity.
+[[nodiscard]] Vector6 small_motion(const Eigen::Isometry3d& T);
+/// As T_first_second.
+[[nodiscard]] UncertainPose of_loop(const LoopConstraint& loop);
+
+/// The odometry between any two keyframes, with what adds up between them.
+class Chain {
+ public:
+  void add(const LoopKeyframe& keyframe);
+
+  /// T_a_b; a and b in either order.
+  [[nodiscard]] UncertainPose between(std::size_t a, std::size_t b) const;
+  /// [m] driven from the start to a keyframe.
+  [[nodiscard]] double driven(std::size_t keyframe) const { return driven_[keyframe]; }
+  [[nodiscard]] std::size_t size() const { return poses_.size(); }
+
+ private:
+  /// Of lengths, [m²] of the first camera's frame: a stretch of the way is wrong by one factor.
+  [[nodiscard]] Eigen::Matrix3d scale_covariance(std::size_t a, std::size_t b) const;
+
+  std::vector<Eigen::Isometry3d> poses_;
+  std::vector<double> driven_;
+  std::vector<double> scale_sigma_;
+  std::vector<Matrix6> sums_;       ///< of steps, carried to the first camera's frame
+  std::vector<std::size_t> knots_;  ///< keyframes where stretches end
+};
+
+}  // namespace oneac::internal

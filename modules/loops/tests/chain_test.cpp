@@ -1,0 +1,99 @@
+#include "chain.h"
+
+#include "loop_scenes.h"
+
+#include <gtest/gtest.h>
+
+#include <random>
+
+namespace oneac::internal {
+namespace {
+
+TEST(Chain, GoesBothWays) {
+  const auto keyframes = test::drifted(test::square_drive(40.0, 1), 0.05);
+  const Chain chain = test::chain_of(keyframes);
+  const UncertainPose there = chain.between(5, 50), back = chain.between(50, 5);
+  EXPECT_LT((there.T * back.T).matrix().cwiseAbs().maxCoeff() - 1.0, 1e-12);
+  const UncertainPose again = inverse(back);
+  EXPECT_LT((again.covariance - there.covariance).norm(), 1e-9 * there.covariance.norm());
+  EXPECT_NEAR(chain.driven(20), 40.0, 1e-9);
+}
+
+TEST(Chain, CovarianceIsThatOfTheStepsItAddsUp) {
+  auto truth = test::square_drive(40.0, 1);
+  truth.resize(40);
+  auto keyframes = test::drifted(truth, 0.0);
+  for (LoopKeyframe& keyframe : keyframes) keyframe.scale_sigma = 0.0;
+  const Matrix6 told = test::chain_of(keyframes).between(0, 39).covariance;
+  std::mt19937 generator(7);
+  std::normal_distribution<double> normal;
+  Matrix6 seen = Matrix6::Zero();
+  constexpr int kTrials = 4000;
+  for (int trial = 0; trial < kTrials; ++trial) {
+    Eigen::Isometry3d T = Eigen::Isometry3d::Identity();
+    for (std::size_t i = 1; i < truth.size(); ++i) {
+      Eigen::Isometry3d error = Eigen::Isometry3d::Identity();
+      const auto three = [&] {
+        return Eigen::Vector3d(normal(generator), normal(generator), normal(generator));
+      };
+      error.linear() = rotation_from_vector(0.1 * kDegree * three());
+      error.translation() = 0.02 * three();
+      T = T * truth[i - 1].inverse() * truth[i] * error;
+    }
+    const Vector6 e = small_motion((truth[0].inverse() * truth[39]).inverse() * T);
+    seen += e * e.transpose() / kTrials;
+  }
+  for (int i = 0; i < 6; ++i) EXPECT_NEAR(seen(i, i) / told(i, i), 1.0, 0.12) << i;
+}
+
+TEST(Chain, LengthsOfAStretchAreWrongByOneFactor) {
+  std::vector<Eigen::Isometry3d> truth;
+  for (int i = 0; i < 30; ++i) truth.push_back(test::pose_at(0.0, 2.0 * i, 0.0));
+  const UncertainPose way = test::chain_of(test::drifted(truth, 0.0)).between(0, 29);
+  EXPECT_GT(std::sqrt(way.covariance(2, 2)), 0.01 * 58.0);  // ahead
+  EXPECT_LT(std::sqrt(way.covariance(1, 1)), 0.01 * 58.0);
+}
+
+TEST(Chain, KnowsNothingBeyondAStepThatIsUnknown) {
+  auto keyframes = test::drifted(test::square_drive(40.0, 1), 0.0);
+  keyframes[10].covariance.setZero();
+  const Chain chain = test::chain_of(keyframes);
+  EXPECT_GT(chain.between(9, 10).covariance(0, 0), 1e5);
+  EXPECT_LT(chain.between(10, 12).covariance(0, 0), 1.0);
+}
+
+TEST(Chain, ErrorsOfStepsAddUpAsLoopsDo) {
+  const OdometryStep step{{yaw_rotation(std::cos(0.2), std::sin(0.2)), {0.1, 0.0, -2.0}},
+                          test::step_covariance()};
+  LoopConstraint loop;
+  loop.T_2_1 = step.T_2_1;
+  loop.covariance = step.covariance;
+  EXPECT_LT((covariance_of_steps({step}) - of_loop(loop).covariance).norm(), 1e-15);
+  const UncertainPose two = of_loop(loop) * of_loop(loop);
+  EXPECT_LT((covariance_of_steps({step, step}) - two.covariance).norm(), 1e-15);
+  EXPECT_TRUE(covariance_of_steps({}).isZero());
+}
+
+TEST(Chain, LoopIsTheInverseOfItsMotionWithItsUncertainty) {
+  LoopConstraint loop = test::loop_between({test::pose_at(0, 0, 0), test::pose_at(1, 3, 10)}, 0, 1);
+  const UncertainPose pose = of_loop(loop);
+  EXPECT_LT((pose.T.translation() - Eigen::Vector3d(1, 0, 3)).norm(), 1e-12);
+  // Numerically: move (w, t) by each unit and see the change on the right.
+  Matrix6 J;
+  for (int i = 0; i < 6; ++i) {
+    constexpr double kStep = 1e-6;
+    Vector6 d = Vector6::Zero();
+    d(i) = kStep;
+    LoopConstraint moved = loop;
+    moved.T_2_1.R = rotation_from_vector(d.head<3>()) * loop.T_2_1.R;
+    moved.T_2_1.t += d.tail<3>();
+    J.col(i) = small_motion(pose.T.inverse() * of_loop(moved).T) / kStep;
+  }
+  EXPECT_LT((J * loop.covariance * J.transpose() - pose.covariance).norm(), 1e-8);
+  const Matrix6 information = g2o_information(loop);
+  EXPECT_NEAR(information(0, 0) * pose.covariance.inverse()(0, 0), std::pow(information(0, 0), 2),
+              1e-6 * std::pow(information(0, 0), 2));
+}
+
+}  // namespace
+}  // namespace oneac::internal

@@ -1,0 +1,191 @@
+#include "drive_fixture.h"
+
+#include "oneac/evaluation/trajectory_io.h"
+
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <map>
+#include <set>
+#include <sstream>
+#include <string>
+#include <vector>
+
+namespace oneac {
+namespace {
+
+namespace fs = std::filesystem;
+
+using Row = std::map<std::string, double>;
+
+std::vector<Row> read_csv(const fs::path& path) {
+  std::ifstream in(path);
+  const auto cells = [](const std::string& line) {
+    std::vector<std::string> all;
+    std::istringstream stream(line);
+    for (std::string cell; std::getline(stream, cell, ',');) all.push_back(cell);
+    return all;
+  };
+  std::string line;
+  std::getline(in, line);
+  const std::vector<std::string> names = cells(line);
+  std::vector<Row> rows;
+  while (std::getline(in, line)) {
+    const std::vector<std::string> values = cells(line);
+    Row& row = rows.emplace_back();
+    for (std::size_t i = 0; i < names.size(); ++i) row[names[i]] = std::stod(values.at(i));
+  }
+  return rows;
+}
+
+/// Distance [m] and turn [deg] of a loop from what the true poses say.
+std::pair<double, double> errors_of(const Row& loop, const Trajectory& truth) {
+  const auto pose = [&](const char* index) {
+    return truth.poses.at(static_cast<std::size_t>(loop.at(index)));
+  };
+  const Eigen::Isometry3d T = pose("index2").inverse() * pose("index1");
+  const Eigen::Quaterniond q(loop.at("qw"), loop.at("qx"), loop.at("qy"), loop.at("qz"));
+  const Eigen::Vector3d t(loop.at("tx"), loop.at("ty"), loop.at("tz"));
+  const double turn = q.angularDistance(Eigen::Quaterniond(T.linear()));
+  return {(t - T.translation()).norm(), turn * 180.0 / M_PI};
+}
+
+/// A block of 40 m driven twice; tests share the drives and the runs.
+class LoopsVerb : public ::testing::Test {
+ protected:
+  static inline std::unique_ptr<TemporaryFolder> shared;
+
+  static void SetUpTestSuite() {
+    shared = std::make_unique<TemporaryFolder>();
+    simulate("block", {"--lane-shift-m", "0.5"});
+    run("block", "closed", {"--loops"});
+  }
+  static void TearDownTestSuite() { shared.reset(); }
+
+  static fs::path folder(const std::string& name) { return shared->path() / name; }
+
+  static void simulate(const std::string& name, std::vector<std::string> extra) {
+    std::vector<std::string> arguments{"simulate",  "-o",           folder(name).string(),
+                                       "--route",   "block",        "--laps",
+                                       "2",         "--block-m",    "40",
+                                       "--width",   "400",          "--height",
+                                       "300",       "--focal",      "312",
+                                       "--relight", "--no-progress"};
+    arguments.insert(arguments.end(), extra.begin(), extra.end());
+    const ProgramResult made = oneac_program(arguments);
+    ASSERT_EQ(made.exit_code, 0) << made.err;
+  }
+  static ProgramResult run(const std::string& drive, const std::string& out,
+                           std::vector<std::string> extra) {
+    std::vector<std::string> arguments{"run", (folder(drive) / "simulated.rawlog").string(), "-o",
+                                       folder(out).string(), "--quiet"};
+    arguments.insert(arguments.end(), extra.begin(), extra.end());
+    ProgramResult result = oneac_program(arguments);
+    EXPECT_EQ(result.exit_code, 0) << result.err;
+    return result;
+  }
+  static Trajectory truth_of(const std::string& drive) {
+    return read_kitti(folder(drive) / "poses.txt");
+  }
+  static void expect_no_false_loop(const std::string& drive, const std::string& out) {
+    const Trajectory truth = truth_of(drive);
+    for (const Row& loop : read_csv(folder(out) / "loops.csv")) {
+      const auto [metres, degrees] = errors_of(loop, truth);
+      EXPECT_LT(metres, 1.0) << loop.at("index1") << " and " << loop.at("index2");
+      EXPECT_LT(degrees, 3.0) << loop.at("index1") << " and " << loop.at("index2");
+    }
+  }
+};
+
+TEST_F(LoopsVerb, FindTheSecondLapsPlacesAndNoOthers) {
+  expect_no_false_loop("block", "closed");
+  std::set<std::size_t> found;
+  for (const Row& loop : read_csv(folder("closed") / "loops.csv")) {
+    found.insert(static_cast<std::size_t>(loop.at("index2")));
+  }
+  // Of the keyframes whose place the first lap has seen.
+  std::map<double, std::size_t> index_at;
+  const Trajectory all = read_tum(folder("closed") / "trajectory_camera.tum");
+  for (std::size_t i = 0; i < all.times.size(); ++i) index_at[all.times[i]] = i;
+  std::set<std::size_t> seen_again;
+  for (const Row& loop : read_csv(folder("block") / "loops_true.csv")) {
+    seen_again.insert(static_cast<std::size_t>(loop.at("index2")));
+  }
+  std::size_t places = 0, loops = 0;
+  for (const double time : read_tum(folder("closed") / "keyframes.tum").times) {
+    const std::size_t index = index_at.at(time);
+    if (seen_again.count(index) == 0) continue;
+    ++places;
+    loops += found.count(index);
+  }
+  ASSERT_GT(places, 50U);
+  EXPECT_GT(static_cast<double>(loops), 0.9 * static_cast<double>(places));
+}
+
+TEST_F(LoopsVerb, WriteTheClosedDriveBesideTheOther) {
+  const std::size_t frames = truth_of("block").poses.size();
+  const fs::path out = folder("closed");
+  for (const char* name : {"trajectory_optimised_camera.tum", "trajectory_optimised_vehicle.tum"}) {
+    EXPECT_EQ(read_tum(out / name).poses.size(), frames) << name;
+  }
+  EXPECT_EQ(read_kitti(out / "trajectory_optimised_camera.kitti").poses.size(), frames);
+  EXPECT_EQ(read_tum(out / "keyframes_optimised.tum").times, read_tum(out / "keyframes.tum").times);
+  const auto summary = nlohmann::json::parse(read_file(out / "summary.json"));
+  const std::size_t loops = read_csv(out / "loops.csv").size();
+  EXPECT_EQ(summary["loops"]["loops"], loops);
+  EXPECT_LT(summary["loops"]["ape_after_m"], 1.05 * summary["loops"]["ape_before_m"].get<double>());
+  const std::string graph = read_file(out / "graph.g2o");
+  std::size_t edges = 0;
+  for (auto at = graph.find("EDGE_SE3:QUAT"); at != std::string::npos;
+       at = graph.find("EDGE_SE3:QUAT", at + 1)) {
+    ++edges;
+  }
+  EXPECT_EQ(edges, read_tum(out / "keyframes.tum").times.size() - 1 + loops);
+  EXPECT_NE(read_file(out / "report.html").find("<h2>Loops</h2>"), std::string::npos);
+}
+
+TEST_F(LoopsVerb, ChangeNothingElse) {
+  run("block", "open", {"--threads", "1"});
+  for (const char* name :
+       {"trajectory_camera.kitti", "trajectory_camera.tum", "trajectory_vehicle.tum",
+        "relative_poses.csv", "covariance.csv", "tilt.csv", "keyframes.tum"}) {
+    EXPECT_EQ(read_file(folder("open") / name), read_file(folder("closed") / name)) << name;
+  }
+  EXPECT_FALSE(fs::exists(folder("open") / "loops.csv"));
+  const auto summary = nlohmann::json::parse(read_file(folder("open") / "summary.json"));
+  EXPECT_FALSE(summary.contains("loops"));
+  EXPECT_EQ(read_file(folder("open") / "params.yaml").find("loops"), std::string::npos);
+}
+
+TEST_F(LoopsVerb, GiveTheSameBytesAtAnyThreadCount) {
+  run("block", "three", {"--loops", "--threads", "3"});
+  for (const char* name : {"loops.csv", "graph.g2o", "trajectory_optimised_camera.kitti",
+                           "points.ply", "map.simplemap", "keyframes_optimised.tum"}) {
+    EXPECT_EQ(read_file(folder("three") / name), read_file(folder("closed") / name)) << name;
+  }
+}
+
+TEST_F(LoopsVerb, AreNotTakenInByStreetsThatLookAlike) {
+  simulate("alike", {"--alike"});
+  run("alike", "trap", {"--loops"});
+  expect_no_false_loop("alike", "trap");
+}
+
+TEST_F(LoopsVerb, OfADriveWithoutAnyAreAnEmptyTable) {
+  run("block", "short", {"--loops", "--count", "40"});
+  EXPECT_TRUE(read_csv(folder("short") / "loops.csv").empty());
+  EXPECT_EQ(read_file(folder("short") / "trajectory_optimised_camera.kitti"),
+            read_file(folder("short") / "trajectory_camera.kitti"));
+}
+
+TEST_F(LoopsVerb, NeedMetres) {
+  run("block", "unscaled", {"--loops", "--set", "front_end.scale.source=none"});
+  EXPECT_TRUE(read_csv(folder("unscaled") / "loops.csv").empty());
+  const auto summary = nlohmann::json::parse(read_file(folder("unscaled") / "summary.json"));
+  EXPECT_EQ(summary["loops"]["keyframes_not_metric"], summary["loops"]["keyframes"]);
+}
+
+}  // namespace
+}  // namespace oneac
