@@ -70,10 +70,12 @@ std::optional<WindowStep> WindowEquations::solve(double damping) {
     if (landmark.empty()) continue;
     if (!eliminate(landmark, damping)) return std::nullopt;
   }
-  const Eigen::LDLT<Eigen::MatrixXd, Eigen::Lower> ldlt(reduced_matrix());
+  const Eigen::MatrixXd S = reduced_matrix();
+  const Eigen::LDLT<Eigen::MatrixXd, Eigen::Lower> ldlt(S);
   if (ldlt.info() != Eigen::Success || !ldlt.isPositive()) return std::nullopt;
   WindowStep step = back_substituted(ldlt.solve(reduced_right_side()), damping);
-  if (!std::isfinite(step.decrease)) return std::nullopt;
+  step.chi2 = step.poses.dot(S.selfadjointView<Eigen::Lower>() * step.poses);
+  if (!std::isfinite(step.decrease) || !std::isfinite(step.chi2)) return std::nullopt;
   return step;
 }
 

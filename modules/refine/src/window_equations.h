@@ -25,6 +25,7 @@ struct WindowStep {
   Eigen::VectorXd poses;  ///< (w, v) of each free view
   std::vector<Eigen::Vector3d> points;
   double decrease = 0.0;
+  double chi2 = 0.0;  ///< squared distance that the poses go, in their standard deviations
 };
 
 /// Robust least squares over the points of a window and the planar-motion priors, affinities left
