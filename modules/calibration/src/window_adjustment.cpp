@@ -33,13 +33,13 @@ double way_of(const CalibrationWindow& window) {
   return std::max((window.views.back().T_view_map.inverse().t - first).norm(), 1e-9);
 }
 
-ceres::Solver::Options solver_options(int max_iterations) {
+ceres::Solver::Options solver_options(int max_iterations, double function_tolerance) {
   ceres::Solver::Options options;
   options.linear_solver_type = ceres::DENSE_SCHUR;
   options.max_num_iterations = max_iterations;
   options.num_threads = 1;
   options.logging_type = ceres::SILENT;
-  options.function_tolerance = 1e-7;
+  options.function_tolerance = function_tolerance;
   return options;
 }
 
@@ -92,7 +92,8 @@ void WindowAdjustment::add_track(const Track& track, const PinholeCamera& camera
   anchors_.push_back(anchor);
 }
 
-bool WindowAdjustment::solve(const IntrinsicsMatrix& prior, double sigma_px) {
+bool WindowAdjustment::solve(const IntrinsicsMatrix& prior, double sigma_px,
+                             double function_tolerance) {
   ceres::CauchyLoss loss(options_.loss_sigmas);
   ceres::Problem problem(borrowing_loss());
   auto ordering = std::make_shared<ceres::ParameterBlockOrdering>();
@@ -114,7 +115,7 @@ bool WindowAdjustment::solve(const IntrinsicsMatrix& prior, double sigma_px) {
       length_cost(window_.views.front().T_view_map, window_.views.back().T_view_map), nullptr,
       poses_.back().data());
   problem.AddResidualBlock(prior_cost(prior), nullptr, change_.data());
-  ceres::Solver::Options options = solver_options(options_.max_iterations);
+  ceres::Solver::Options options = solver_options(options_.max_iterations, function_tolerance);
   options.linear_solver_ordering = ordering;
   ceres::Solver::Summary summary;
   ceres::Solve(options, &problem, &summary);

@@ -24,8 +24,9 @@ class WindowAdjustment {
   [[nodiscard]] std::size_t sightings() const { return seen_.size(); }
   [[nodiscard]] const IntrinsicsVector& change() const { return change_; }
 
-  /// Minimises. @return whether something was found
-  bool solve(const IntrinsicsMatrix& prior, double sigma_px);
+  /// Minimises until the cost falls by less than this share in a step. @return whether something
+  /// was found
+  bool solve(const IntrinsicsMatrix& prior, double sigma_px, double function_tolerance);
   /// Of all sightings [px].
   [[nodiscard]] std::vector<std::pair<Eigen::Vector2d, Eigen::Vector2d>> residuals() const;
   /// Robust 1σ of a coordinate's residual [px].

@@ -92,5 +92,21 @@ TEST_F(SettlingOnALine, TellsHowFarItLiesFromTheMap) {
               1e-12);
 }
 
+TEST(Settling, BendsTheFramesOfAStepThatKeptItsLengthExactly) {
+  LocalMap map(WindowOptions{}, 700.0);
+  Settling settling;
+  map.start(0, ahead(0.0));
+  settling.add_keyframe(0, {});
+  settling.add_frame(1, 0, ahead(1.0));
+  const RelativePose turned{rotation_from_vector({0.0, 0.05, 0.0}), ahead(1.0).t};
+  map.add_keyframe(1, turned);
+  settling.add_keyframe(1, {1, 0.0, 0, false, 0.0, ahead(1.0)});
+  Settled all;
+  settling.settle_all(map, all);
+  ASSERT_EQ(all.frames.size(), 1U);
+  const Eigen::Vector3d there = all.keyframes[1].T_first_cam.translation();
+  EXPECT_LT((all.frames[0].T_first_cam.translation() - there).norm(), 1e-9);
+}
+
 }  // namespace
 }  // namespace oneac

@@ -53,7 +53,7 @@ struct Trust {
 }  // namespace
 
 WindowRefineResult adjust_points(SlidingWindow& window, const WindowRefineOptions& options,
-                                 double function_tolerance) {
+                                 const AdjustmentEnds& ends) {
   WindowRefineResult result;
   WindowEquations equations(window, options);
   if (equations.empty()) return result;
@@ -71,7 +71,9 @@ WindowRefineResult adjust_points(SlidingWindow& window, const WindowRefineOption
     WindowState candidate = step ? equations.moved(state, *step) : WindowState{};
     const auto next = step ? equations.cost(candidate) : std::nullopt;
     const double gain = next ? (cost - *next) / step->decrease : 0.0;
-    const bool converged = next && std::abs(cost - *next) <= function_tolerance * cost;
+    const bool rests = next && step->chi2 <= ends.pose_sigmas * ends.pose_sigmas *
+                                                 static_cast<double>(step->poses.size());
+    const bool converged = next && std::abs(cost - *next) <= ends.cost_share * cost;
     if (gain > kWorthwhile) {
       state = std::move(candidate);
       cost = *next;
@@ -79,7 +81,7 @@ WindowRefineResult adjust_points(SlidingWindow& window, const WindowRefineOption
     } else {
       trust.reject();
     }
-    if (converged) break;
+    if (converged || rests) break;
     if (gain > kWorthwhile) equations.linearise(state);
   }
   result.final_cost = cost;

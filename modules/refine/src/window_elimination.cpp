@@ -18,42 +18,64 @@ double damp(double diagonal, double damping) {
 
 }  // namespace
 
-bool WindowEquations::eliminate(Landmark& landmark, double damping, Eigen::MatrixXd& S,
-                                Eigen::VectorXd& rhs) {
+bool WindowEquations::eliminate(Landmark& landmark, double damping) {
   Eigen::Matrix3d H = landmark.H;
   for (int i = 0; i < 3; ++i) H(i, i) += damp(landmark.H(i, i), damping);
   const Eigen::LLT<Eigen::Matrix3d> llt(H);
   if (llt.info() != Eigen::Success) return false;
   landmark.inverse_root = llt.matrixL().solve(Eigen::Matrix3d::Identity());
   const Eigen::Vector3d g = landmark.inverse_root * landmark.g;
-  for (std::size_t k = landmark.first_link; k < landmark.last_link; ++k) {
-    Link& link = links_[k];
-    link.reduced = landmark.inverse_root * link.W;
-    rhs.segment<6>(link.column) += link.reduced.transpose() * g;
-    for (std::size_t l = landmark.first_link; l <= k; ++l) {
-      const Link& other = links_[l];
-      if (link.column >= other.column) {
-        S.block<6, 6>(link.column, other.column) -= link.reduced.transpose() * other.reduced;
-      } else {
-        S.block<6, 6>(other.column, link.column) -= other.reduced.transpose() * link.reduced;
-      }
-    }
+  internal::ReducedLandmark reduced{};
+  for (int i = 0; i < 3; ++i) {
+    reduced.g[i] = g(i);
+    for (int j = 0; j <= i; ++j) reduced.inverse_root[i][j] = landmark.inverse_root(i, j);
   }
+  internal::simd_kernels<internal::WindowKernels>().eliminate(
+      reduced, links_.data() + landmark.first_link, links_.data() + landmark.last_link, S_.data(),
+      rhs_.data());
   return true;
 }
 
+Eigen::MatrixXd WindowEquations::reduced_matrix() const {
+  const auto size = static_cast<Eigen::Index>(6 * free_views_);
+  Eigen::MatrixXd S = Eigen::MatrixXd::Zero(size, size);
+  for (std::size_t row = 0; row < free_views_; ++row) {
+    for (std::size_t column = 0; column <= row; ++column) {
+      const internal::PoseBlockSum& block = S_[internal::block_at(row, column)];
+      for (std::size_t c = 0; c < 6; ++c) {
+        const auto to = static_cast<Eigen::Index>(6 * column + c);
+        std::copy_n(block.column[c], 6, &S(static_cast<Eigen::Index>(6 * row), to));
+      }
+    }
+  }
+  return S;
+}
+
+Eigen::VectorXd WindowEquations::reduced_right_side() const {
+  Eigen::VectorXd rhs(static_cast<Eigen::Index>(6 * free_views_));
+  for (std::size_t i = 0; i < free_views_; ++i) std::copy_n(rhs_[i].entry, 6, rhs.data() + 6 * i);
+  return rhs;
+}
+
 std::optional<WindowStep> WindowEquations::solve(double damping) {
-  Eigen::MatrixXd S = H_;
-  Eigen::VectorXd rhs = -g_;
-  for (std::ptrdiff_t i = 0; i < size_; ++i) S(i, i) += damp(H_(i, i), damping);
+  S_ = H_;
+  rhs_ = g_;
+  for (std::size_t i = 0; i < free_views_; ++i) {
+    for (double& entry : rhs_[i].entry) entry = -entry;
+    for (std::size_t k = 0; k < 6; ++k) {
+      S_[internal::block_at(i, i)].column[k][k] += damp(diagonal(i, k), damping);
+    }
+  }
   for (Landmark& landmark : landmarks_) {
     if (landmark.empty()) continue;
-    if (!eliminate(landmark, damping, S, rhs)) return std::nullopt;
+    if (!eliminate(landmark, damping)) return std::nullopt;
   }
+  const Eigen::MatrixXd S = reduced_matrix();
   const Eigen::LDLT<Eigen::MatrixXd, Eigen::Lower> ldlt(S);
   if (ldlt.info() != Eigen::Success || !ldlt.isPositive()) return std::nullopt;
-  WindowStep step = back_substituted(ldlt.solve(rhs), damping);
-  if (!std::isfinite(step.decrease)) return std::nullopt;
+  WindowStep step = back_substituted(ldlt.solve(reduced_right_side()), damping);
+  step.chi2 = step.poses.dot(S.selfadjointView<Eigen::Lower>() * step.poses);
+  if (!std::isfinite(step.decrease) || !std::isfinite(step.chi2)) return std::nullopt;
   return step;
 }
 
@@ -61,9 +83,12 @@ WindowStep WindowEquations::back_substituted(const Eigen::VectorXd& poses, doubl
   WindowStep step;
   step.poses = poses;
   // Of (H + λ D) δ = −g follows that the model falls by −g·δ / 2 + λ δ·D δ / 2.
-  double twice = -g_.dot(step.poses);
-  for (std::ptrdiff_t i = 0; i < size_; ++i) {
-    twice += damp(H_(i, i), damping) * step.poses(i) * step.poses(i);
+  double twice = 0.0;
+  for (std::size_t i = 0; i < free_views_; ++i) {
+    for (std::size_t k = 0; k < 6; ++k) {
+      const double d = step.poses(static_cast<Eigen::Index>(6 * i + k));
+      twice += (damp(diagonal(i, k), damping) * d - g_[i].entry[k]) * d;
+    }
   }
   step.points.assign(landmarks_.size(), Eigen::Vector3d::Zero());
   for (std::size_t i = 0; i < landmarks_.size(); ++i) {
@@ -71,7 +96,10 @@ WindowStep WindowEquations::back_substituted(const Eigen::VectorXd& poses, doubl
     if (landmark.empty()) continue;
     Eigen::Vector3d left = landmark.inverse_root * landmark.g;
     for (std::size_t k = landmark.first_link; k < landmark.last_link; ++k) {
-      left += links_[k].reduced * step.poses.segment<6>(links_[k].column);
+      const double* pose = step.poses.data() + 6 * links_[k].view;
+      for (int j = 0; j < 3; ++j) {
+        for (int c = 0; c < 6; ++c) left(j) += links_[k].reduced.row[j][c] * pose[c];
+      }
     }
     Eigen::Vector3d& d = step.points[i];
     d = -(landmark.inverse_root.transpose() * left);
@@ -85,8 +113,9 @@ WindowStep WindowEquations::back_substituted(const Eigen::VectorXd& poses, doubl
 WindowState WindowEquations::moved(const WindowState& state, const WindowStep& step) const {
   WindowState result = state;
   for (std::size_t i = 0; i < views_; ++i) {
-    if (columns_[i] < 0) continue;
-    const Eigen::Matrix<double, 6, 1> d = step.poses.segment<6>(columns_[i]);
+    if (free_[i] == kNone) continue;
+    const Eigen::Matrix<double, 6, 1> d =
+        step.poses.segment<6>(static_cast<Eigen::Index>(6 * free_[i]));
     RelativePose& pose = result.poses[i];
     pose.R = rotation_from_vector(d.head<3>()) * pose.R;
     pose.R = Eigen::Quaterniond(pose.R).normalized().toRotationMatrix();

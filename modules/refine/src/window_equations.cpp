@@ -6,12 +6,39 @@
 
 #include <Eigen/Geometry>
 
+#include <algorithm>
 #include <cmath>
 
 namespace oneac {
 namespace {
 
+using internal::block_at;
+using internal::PointRow;
+using internal::PoseBlockSum;
+using internal::PoseDerivative;
+using internal::PoseSum;
+using internal::simd_kernels;
+using internal::WindowKernels;
+using internal::WindowLink;
+
 constexpr double kClosest = 1e-9;  // y_z of a point in front, as in PatchTransfer
+
+/// A row of a derivative by (w, v).
+void store(const Eigen::Vector3d& by_w, const Eigen::Vector3d& by_v, double* row) {
+  for (int k = 0; k < 3; ++k) row[k] = by_w(k);
+  for (int k = 0; k < 3; ++k) row[3 + k] = by_v(k);
+  row[6] = row[7] = 0.0;
+}
+
+void add(const Eigen::Matrix<double, 6, 6>& block, PoseBlockSum& sum) {
+  for (int c = 0; c < 6; ++c) {
+    for (int i = 0; i < 6; ++i) sum.column[c][i] += block(i, c);
+  }
+}
+
+void add(const Eigen::Matrix<double, 6, 1>& vector, PoseSum& sum) {
+  for (int i = 0; i < 6; ++i) sum.entry[i] += vector(i);
+}
 
 }  // namespace
 
@@ -20,14 +47,13 @@ WindowEquations::WindowEquations(const SlidingWindow& window, const WindowRefine
   add_columns(window);
   add_rows(window, options);
   add_priors(window, options);
-  H_.resize(size_, size_);
-  g_.resize(size_);
+  H_.resize(free_views_ * (free_views_ + 1) / 2);
+  g_.resize(free_views_);
 }
 
 void WindowEquations::add_columns(const SlidingWindow& window) {
   for (const WindowView& view : window.views) {
-    columns_.push_back(view.fixed ? -1 : size_);
-    if (!view.fixed) size_ += 6;
+    free_.push_back(view.fixed ? kNone : free_views_++);
   }
 }
 
@@ -61,12 +87,12 @@ void WindowEquations::add_rows(const SlidingWindow& window, const WindowRefineOp
 }
 
 std::size_t WindowEquations::link_of(Landmark& landmark, std::size_t view) {
-  const std::ptrdiff_t column = columns_[view];
-  if (column < 0) return kNone;
+  const std::size_t free = free_[view];
+  if (free == kNone) return kNone;
   for (std::size_t k = landmark.first_link; k < landmark.last_link; ++k) {
-    if (links_[k].column == column) return k;
+    if (links_[k].view == free) return k;
   }
-  links_.push_back({column, Matrix36::Zero(), Matrix36::Zero()});
+  links_.push_back({{}, {}, free});
   landmark.last_link = links_.size();
   return landmark.last_link - 1;
 }
@@ -116,9 +142,9 @@ std::optional<double> WindowEquations::cost(const WindowState& state) const {
 }
 
 void WindowEquations::linearise(const WindowState& state) {
-  H_.setZero();
-  g_.setZero();
-  for (Link& link : links_) link.W.setZero();
+  std::fill(H_.begin(), H_.end(), PoseBlockSum{});
+  std::fill(g_.begin(), g_.end(), PoseSum{});
+  for (WindowLink& link : links_) link.W = {};
   const std::vector<Transfer> all = transfers(state);
   for (std::size_t i = 0; i < landmarks_.size(); ++i) {
     Landmark& landmark = landmarks_[i];
@@ -166,32 +192,29 @@ void WindowEquations::linearise_row(const Row& row, const Transfer& transfer,
   J.col(2) = D.transpose() * transfer.t;
   landmark.H += J.transpose() * J;
   landmark.g += J.transpose() * r;
-  const auto block = [&](std::size_t link, const Matrix26& J_pose) {
-    const std::ptrdiff_t column = links_[link].column;
-    H_.block<6, 6>(column, column) += J_pose.transpose() * J_pose;
-    g_.segment<6>(column) += J_pose.transpose() * r;
-    links_[link].W += J.transpose() * J_pose;
-  };
-  Matrix26 J_view, J_anchor;
+  const PointRow here{{r.x(), r.y()}, {{J(0, 0), J(0, 1), J(0, 2)}, {J(1, 0), J(1, 1), J(1, 2)}}};
+  PoseDerivative by_view, by_anchor;
   if (row.link != kNone) {
     const Eigen::Vector3d q = y - rho * state.poses[row.view].t;
-    J_view << q.cross(D.col(0)).transpose(), rho * D.col(0).transpose(),
-        q.cross(D.col(1)).transpose(), rho * D.col(1).transpose();
-    block(row.link, J_view);
+    for (int i = 0; i < 2; ++i) store(q.cross(D.col(i)), rho * D.col(i), by_view.row[i]);
+    add_view(here, by_view, links_[row.link]);
   }
   if (landmark.anchor_link == kNone) return;
   const Eigen::Vector3d m = ray - rho * state.poses[landmark.anchor].t;
-  J_anchor << G.col(0).cross(m).transpose(), -rho * G.col(0).transpose(),
-      G.col(1).cross(m).transpose(), -rho * G.col(1).transpose();
-  block(landmark.anchor_link, J_anchor);
+  for (int i = 0; i < 2; ++i) store(G.col(i).cross(m), -rho * G.col(i), by_anchor.row[i]);
+  add_view(here, by_anchor, links_[landmark.anchor_link]);
   if (row.link == kNone) return;
-  const std::ptrdiff_t view = links_[row.link].column;
-  const std::ptrdiff_t anchor = links_[landmark.anchor_link].column;
+  const std::size_t view = links_[row.link].view, anchor = links_[landmark.anchor_link].view;
   if (view > anchor) {
-    H_.block<6, 6>(view, anchor) += J_view.transpose() * J_anchor;
+    simd_kernels<WindowKernels>().add_pair(by_view, by_anchor, H_[block_at(view, anchor)]);
   } else {
-    H_.block<6, 6>(anchor, view) += J_anchor.transpose() * J_view;
+    simd_kernels<WindowKernels>().add_pair(by_anchor, by_view, H_[block_at(anchor, view)]);
   }
+}
+
+void WindowEquations::add_view(const PointRow& here, const PoseDerivative& J, WindowLink& link) {
+  simd_kernels<WindowKernels>().add_view(here, J, H_[block_at(link.view, link.view)], g_[link.view],
+                                         link.W);
 }
 
 void WindowEquations::linearise_priors(const WindowState& state) {
@@ -200,13 +223,12 @@ void WindowEquations::linearise_priors(const WindowState& state) {
     const RelativePose& second = state.poses[prior.view + 1];
     const Eigen::Vector3d r = planar_residuals(prior.prior, first, second);
     const PlanarDerivative d = planar_derivative(prior.prior, first, second);
-    const std::ptrdiff_t a = columns_[prior.view];
-    const std::ptrdiff_t b = columns_[prior.view + 1];
-    if (a >= 0) H_.block<6, 6>(a, a) += d.first.transpose() * d.first;
-    if (a >= 0) g_.segment<6>(a) += d.first.transpose() * r;
-    if (b >= 0) H_.block<6, 6>(b, b) += d.second.transpose() * d.second;
-    if (b >= 0) g_.segment<6>(b) += d.second.transpose() * r;
-    if (a >= 0 && b >= 0) H_.block<6, 6>(b, a) += d.second.transpose() * d.first;
+    const std::size_t a = free_[prior.view], b = free_[prior.view + 1];
+    if (a != kNone) add(d.first.transpose() * d.first, H_[block_at(a, a)]);
+    if (a != kNone) add(d.first.transpose() * r, g_[a]);
+    if (b != kNone) add(d.second.transpose() * d.second, H_[block_at(b, b)]);
+    if (b != kNone) add(d.second.transpose() * r, g_[b]);
+    if (a != kNone && b != kNone) add(d.second.transpose() * d.first, H_[block_at(b, a)]);
   }
 }
 

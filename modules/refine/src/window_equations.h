@@ -1,6 +1,7 @@
 #pragma once
 
 #include "window_costs.h"
+#include "window_kernels.h"
 
 #include "oneac/refine/sliding_window.h"
 
@@ -24,6 +25,7 @@ struct WindowStep {
   Eigen::VectorXd poses;  ///< (w, v) of each free view
   std::vector<Eigen::Vector3d> points;
   double decrease = 0.0;
+  double chi2 = 0.0;  ///< squared distance that the poses go, in their standard deviations
 };
 
 /// Robust least squares over the points of a window and the planar-motion priors, affinities left
@@ -45,8 +47,6 @@ class WindowEquations {
   [[nodiscard]] WindowState moved(const WindowState& state, const WindowStep& step) const;
 
  private:
-  using Matrix26 = Eigen::Matrix<double, 2, 6>;
-  using Matrix36 = Eigen::Matrix<double, 3, 6>;
   static constexpr std::size_t kNone = std::numeric_limits<std::size_t>::max();
 
   struct Row {  ///< one view's measurement of a landmark
@@ -65,11 +65,6 @@ class WindowEquations {
     Eigen::Vector3d g = Eigen::Vector3d::Zero();
     Eigen::Matrix3d inverse_root = Eigen::Matrix3d::Zero();  ///< L⁻¹ of the damped H = L Lᵀ
   };
-  struct Link {  ///< a landmark and a free view
-    std::ptrdiff_t column;
-    Matrix36 W;        ///< coupling block of the equations, transposed
-    Matrix36 reduced;  ///< L⁻¹ W
-  };
   struct Transfer {
     Eigen::Matrix3d R;
     Eigen::Vector3d t;
@@ -86,22 +81,30 @@ class WindowEquations {
   [[nodiscard]] std::vector<Transfer> transfers(const WindowState& state) const;
   void linearise_row(const Row& row, const Transfer& transfer, const WindowState& state,
                      const Eigen::Vector3d& point, Landmark& landmark);
+  void add_view(const internal::PointRow& here, const internal::PoseDerivative& J,
+                internal::WindowLink& link);
   void linearise_anchor(const Row& row, const Eigen::Vector3d& point, Landmark& landmark) const;
   void linearise_priors(const WindowState& state);
   [[nodiscard]] WindowStep back_substituted(const Eigen::VectorXd& poses, double damping) const;
-  [[nodiscard]] bool eliminate(Landmark& landmark, double damping, Eigen::MatrixXd& S,
-                               Eigen::VectorXd& rhs);
+  [[nodiscard]] bool eliminate(Landmark& landmark, double damping);
+  /// Entry of the poses' equations, before damping.
+  [[nodiscard]] double diagonal(std::size_t view, std::size_t k) const {
+    return H_[internal::block_at(view, view)].column[k][k];
+  }
+  /// Of the reduced equations, for LDLᵀ: the lower triangle counts.
+  [[nodiscard]] Eigen::MatrixXd reduced_matrix() const;
+  [[nodiscard]] Eigen::VectorXd reduced_right_side() const;
 
   std::size_t views_;
-  double c2_;                            ///< squared scale of the loss
-  std::vector<std::ptrdiff_t> columns_;  ///< per view; −1 when fixed
-  std::ptrdiff_t size_ = 0;              ///< of the reduced system
+  double c2_;                      ///< squared scale of the loss
+  std::vector<std::size_t> free_;  ///< per view its index among the free ones; kNone when fixed
+  std::size_t free_views_ = 0;
   std::vector<Landmark> landmarks_;
   std::vector<Row> rows_;
-  std::vector<Link> links_;
+  std::vector<internal::WindowLink> links_;
   std::vector<Prior> priors_;
-  Eigen::MatrixXd H_;  ///< poses; blocks on and below the diagonal
-  Eigen::VectorXd g_;
+  std::vector<internal::PoseBlockSum> H_, S_;  ///< of poses, and reduced: on and below the diagonal
+  std::vector<internal::PoseSum> g_, rhs_;
 };
 
 }  // namespace oneac

@@ -9,6 +9,7 @@ namespace oneac::test {
 namespace {
 
 constexpr double kToTheEnd = 1e-13;
+constexpr AdjustmentEnds kAtTheEnd{kToTheEnd, 0.0};
 
 WindowRefineOptions patient() {
   WindowRefineOptions options;
@@ -36,7 +37,7 @@ TEST(WindowAdjustment, MeetsTheMinimumThatCeresFinds) {
     WindowProblem problem(theirs, patient());
     const ceres::Solver::Summary summary = problem.solve(100, kToTheEnd);
     problem.store(theirs);
-    const WindowRefineResult result = adjust_points(ours, patient(), kToTheEnd);
+    const WindowRefineResult result = adjust_points(ours, patient(), kAtTheEnd);
     ASSERT_TRUE(result.usable);
     EXPECT_NEAR(result.initial_cost, summary.initial_cost, 1e-9 * summary.initial_cost);
     EXPECT_NEAR(result.final_cost, summary.final_cost, 1e-6 * summary.final_cost);
@@ -55,7 +56,7 @@ TEST(WindowAdjustment, NeverRaisesItsCostAndKeepsRotationsOrthonormal) {
   one_step.max_iterations = 1;
   double last = 0.0;
   for (int step = 0; step < 8; ++step) {
-    const WindowRefineResult result = adjust_points(window, one_step, 0.0);
+    const WindowRefineResult result = adjust_points(window, one_step, {});
     ASSERT_TRUE(result.usable);
     EXPECT_LE(result.final_cost, result.initial_cost);
     last = result.final_cost;
@@ -67,13 +68,26 @@ TEST(WindowAdjustment, NeverRaisesItsCostAndKeepsRotationsOrthonormal) {
   }
 }
 
+TEST(WindowAdjustment, EndsWhenPosesHaveFoundTheirPlaceThoughTheCostStillFalls) {
+  SlidingWindow early = spoilt_window(96), late = early;
+  const WindowRefineResult rested = adjust_points(early, patient(), {kToTheEnd, 0.1});
+  const WindowRefineResult ended = adjust_points(late, patient(), kAtTheEnd);
+  EXPECT_LT(rested.iterations, ended.iterations);
+  EXPECT_GE(rested.final_cost, ended.final_cost);
+  for (std::size_t i = 0; i < early.views.size(); ++i) {
+    const RelativePose T = early.views[i].T_view_map * late.views[i].T_view_map.inverse();
+    EXPECT_LT((T.R - Eigen::Matrix3d::Identity()).norm(), 1e-3) << "view " << i;
+    EXPECT_LT(T.t.norm(), 1e-2) << "view " << i;
+  }
+}
+
 TEST(WindowAdjustment, LeavesAWindowOfSingleSightingsAlone) {
   SlidingWindow window = spoilt_window(95);
   for (WindowObservation& seen : window.observations) {
     seen.view = window.landmarks[seen.landmark].anchor;
   }
   const SlidingWindow before = window;
-  EXPECT_FALSE(adjust_points(window, {}, kToTheEnd).usable);
+  EXPECT_FALSE(adjust_points(window, {}, kAtTheEnd).usable);
   for (std::size_t i = 0; i < window.landmarks.size(); ++i) {
     EXPECT_EQ(window.landmarks[i].inverse_depth, before.landmarks[i].inverse_depth);
   }

@@ -1,5 +1,7 @@
 #include "corner_grid.h"
 
+#include "patch/image_rows.h"
+
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
@@ -14,70 +16,30 @@ constexpr std::size_t kPerCell = 6;  // reserve for cells whose neighbours are e
 constexpr float kLeastGradient = 1.0F;
 constexpr float kGrey = PyramidLevel::kPerGrey;
 
-/// Products of the gradient summed over 7 rows, one entry per column.
-struct ColumnSums {
-  explicit ColumnSums(std::size_t width) : xx(width), xy(width), yy(width) {}
-  std::vector<std::int32_t> xx, xy, yy;
-
-  /// Adds (sign 1) or takes away (sign −1) one row. 12-bit grey: 49 products fit 32 bits.
-  void add(const PyramidLevel& image, int v, std::int32_t sign) {
-    const std::uint16_t* here = image.row(v);
-    const std::uint16_t *above = image.row(v - 1), *below = image.row(v + 1);
-    std::int32_t *x = xx.data(), *m = xy.data(), *y = yy.data();
-    const auto width = static_cast<std::ptrdiff_t>(xx.size());
-    for (std::ptrdiff_t u = 0; u < width; ++u) {
-      const auto gx = static_cast<std::int16_t>(here[u + 1] - here[u - 1]);
-      const auto gy = static_cast<std::int16_t>(below[u] - above[u]);
-      x[u] += sign * (gx * gx);
-      m[u] += sign * (gx * gy);
-      y[u] += sign * (gy * gy);
-    }
-  }
-};
-
-/// Sums of 7 neighbours, for u in [kBox, width − kBox).
-void box_sums(const std::vector<std::int32_t>& in, std::vector<float>& out) {
-  const std::size_t count = in.size() - 2 * std::size_t{kBox};
-  const std::int32_t* p = in.data();
-  float* sums = out.data() + kBox;
-  for (std::size_t u = 0; u < count; ++u) {
-    sums[u] =
-        static_cast<float>(p[u] + p[u + 1] + p[u + 2] + p[u + 3] + p[u + 4] + p[u + 5] + p[u + 6]);
-  }
-}
-
 /// Smaller eigenvalue at each pixel of level 1, zero near the border.
 class CornerResponse {
  public:
   explicit CornerResponse(const PyramidLevel& image)
       : width_(static_cast<std::size_t>(image.width)),
         values_(width_ * static_cast<std::size_t>(image.height), 0.0F) {
-    ColumnSums sums(width_);
-    std::vector<float> xx(width_), xy(width_), yy(width_);
+    // Products of the gradient summed over 7 rows. 12-bit grey: 49 products fit 32 bits.
+    std::vector<std::int32_t> xx(width_), xy(width_), yy(width_);
+    const GradientSums sums{xx.data(), xy.data(), yy.data()};
+    const ImageRowKernels& kernels = simd_kernels<ImageRowKernels>();
+    const auto add = [&](int v, std::int32_t sign) {
+      kernels.add_gradients(image.row(v - 1), image.row(v), image.row(v + 1), width_, sign, sums);
+    };
     for (int v = 0; v < image.height; ++v) {
-      sums.add(image, v, 1);
-      if (v > 2 * kBox) sums.add(image, v - 2 * kBox - 1, -1);
+      add(v, 1);
+      if (v > 2 * kBox) add(v - 2 * kBox - 1, -1);
       if (v < 2 * kBox) continue;
-      box_sums(sums.xx, xx);
-      box_sums(sums.xy, xy);
-      box_sums(sums.yy, yy);
       float* out = values_.data() + static_cast<std::size_t>(v - kBox) * width_;
-      for (std::size_t u = kBox; u < width_ - kBox; ++u) {
-        const float difference = xx[u] - yy[u];
-        out[u] = 0.5F * (xx[u] + yy[u] - std::sqrt(difference * difference + 4.0F * xy[u] * xy[u]));
-      }
+      kernels.smaller_eigenvalues(sums, width_, out);
     }
   }
 
   [[nodiscard]] const float* row(int v) const {
     return values_.data() + static_cast<std::size_t>(v) * width_;
-  }
-  [[nodiscard]] bool is_maximum(int u, int v) const {
-    const float *above = row(v - 1) + u, *here = row(v) + u, *below = row(v + 1) + u;
-    const float value = *here;
-    // Strict on one side, so that of two equal neighbours one stays.
-    return value > here[-1] && value >= here[1] && value > above[-1] && value > above[0] &&
-           value > above[1] && value >= below[-1] && value >= below[0] && value >= below[1];
   }
 
  private:
@@ -107,10 +69,14 @@ CornerGrid find_corners(const ImagePyramid& pyramid, int cell_px,
   const CornerResponse response(image);
   // Central differences are twice the gradient.
   constexpr float kLeast = 49.0F * 4.0F * kLeastGradient * kLeastGradient * kGrey * kGrey;
+  const auto width = static_cast<std::size_t>(image.width);
+  std::vector<std::int32_t> is_maximum(width);
   for (int v = kBorder; v < image.height - kBorder; ++v) {
     const float* row = response.row(v);
+    simd_kernels<ImageRowKernels>().maxima(response.row(v - 1), row, response.row(v + 1), kBorder,
+                                           width - kBorder, kLeast, is_maximum.data());
     for (int u = kBorder; u < image.width - kBorder; ++u) {
-      if (row[u] < kLeast || !response.is_maximum(u, v)) continue;
+      if (is_maximum[static_cast<std::size_t>(u)] == 0) continue;
       const Corner corner{{2.0 * u, 2.0 * v}, row[u]};
       if (!usable(corner.u)) continue;
       const int index = (2 * v / cell_px) * grid.columns + 2 * u / cell_px;

@@ -1,5 +1,7 @@
 #include "image_pyramid.h"
 
+#include "image_rows.h"
+
 #include <algorithm>
 
 namespace oneac::internal {
@@ -37,6 +39,7 @@ void repeat_border(PyramidLevel& level) {
 PyramidLevel smooth(const ImageView& image) {
   PyramidLevel level = allocate(image.width, image.height);
   const auto width = static_cast<std::size_t>(image.width);
+  const ImageRowKernels& kernels = simd_kernels<ImageRowKernels>();
   std::vector<std::uint16_t> column_sums(width + 2);
   for (int v = 0; v < image.height; ++v) {
     const auto source = [&image](int row) {
@@ -45,16 +48,10 @@ PyramidLevel smooth(const ImageView& image) {
     };
     const std::uint8_t *above = source(v - 1), *here = source(v), *below = source(v + 1);
     std::uint16_t* sums = column_sums.data() + 1;
-    for (std::size_t u = 0; u < width; ++u) {
-      sums[u] = static_cast<std::uint16_t>(above[u] + 2 * here[u] + below[u]);
-    }
+    kernels.sum_of_three(above, here, below, width, sums);
     sums[-1] = sums[0];
     sums[width] = sums[width - 1];
-    std::uint16_t* out = level.row(v);
-    const std::uint16_t* left = column_sums.data();
-    for (std::size_t u = 0; u < width; ++u) {
-      out[u] = static_cast<std::uint16_t>(left[u] + 2 * left[u + 1] + left[u + 2]);
-    }
+    kernels.smooth_along(column_sums.data(), width, level.row(v));
   }
   repeat_border(level);
   return level;
@@ -65,20 +62,13 @@ PyramidLevel halve(const PyramidLevel& fine) {
   PyramidLevel level = allocate((fine.width + 1) / 2, (fine.height + 1) / 2);
   const auto width = static_cast<std::size_t>(level.width);
   const std::size_t needed = 2 * width + 4;
+  const ImageRowKernels& kernels = simd_kernels<ImageRowKernels>();
   std::vector<std::uint16_t> column_sums(needed);
   for (int v = 0; v < level.height; ++v) {
     const std::uint16_t* rows[5];
     for (int i = 0; i < 5; ++i) rows[i] = fine.row(2 * v - 2 + i) - 2;
-    for (std::size_t u = 0; u < needed; ++u) {
-      const int sum = rows[0][u] + rows[4][u] + 4 * (rows[1][u] + rows[3][u]) + 6 * rows[2][u];
-      column_sums[u] = static_cast<std::uint16_t>((sum + 8) >> 4);
-    }
-    std::uint16_t* out = level.row(v);
-    const std::uint16_t* s = column_sums.data();
-    for (std::size_t u = 0; u < width; ++u) {
-      const std::uint16_t* c = s + 2 * u;
-      out[u] = static_cast<std::uint16_t>((c[0] + c[4] + 4 * (c[1] + c[3]) + 6 * c[2] + 8) >> 4);
-    }
+    kernels.sum_of_five(rows, needed, column_sums.data());
+    kernels.halve_along(column_sums.data(), width, level.row(v));
   }
   repeat_border(level);
   return level;

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 namespace oneac {
 namespace {
@@ -36,11 +37,13 @@ Matrix6 as_g2o(const Matrix6& information, const RelativePose& T_2_1, double sca
   return 0.5 * (inverse + inverse.transpose());
 }
 
-/// How much longer adjustments made a step; 1 where that is no longer the same step.
-double stretch(double now, double before) {
+/// How much longer adjustments made a step; empty where that is no longer the same step.
+std::optional<double> stretch(double now, double before) {
   constexpr double kMost = 2.0;
-  const double ratio = before > 0.0 ? now / before : 1.0;
-  return ratio < kMost && ratio > 1.0 / kMost ? ratio : 1.0;
+  if (!(before > 0.0)) return std::nullopt;
+  const double ratio = now / before;
+  if (!(ratio < kMost && ratio > 1.0 / kMost)) return std::nullopt;
+  return ratio;
 }
 
 }  // namespace
@@ -109,9 +112,9 @@ Settling::Bend Settling::bend_after(const WindowKeyframe& keyframe, const LocalM
   const Note& next = notes_.begin()->second;
   const double before = next.T_from_before.t.norm();
   RelativePose now = map.keyframes().front().T_cam_map * keyframe.T_cam_map.inverse();
-  const double stretched = stretch(now.t.norm(), before);
-  bend.factor = std::exp(next.log_factor) * stretched;
-  if (!(before > 0.0) || stretched == 1.0) return bend;
+  const std::optional<double> stretched = stretch(now.t.norm(), before);
+  bend.factor = std::exp(next.log_factor) * stretched.value_or(1.0);
+  if (!stretched) return bend;
   now.t *= std::exp(next.log_factor);
   RelativePose led = next.T_from_before;
   led.t *= bend.factor;

@@ -31,11 +31,15 @@ constexpr double kFar = 0.02;
 // Points that overdetermine six unknowns, and those of them that know metres.
 constexpr std::size_t kFewest = 20, kFewestNear = 6;
 constexpr double kMajority = 0.5;
-constexpr double kCut = 3.0;      // [σ] scale of the loss at the end ...
-constexpr double kWidest = 8.0;   // [-] ... and at the start, over that
-constexpr int kIterations = 14;   // the last eight at the final scale
-constexpr double kMoves = 3.0;    // [σ] of a translation that is one
-constexpr double kRocks = 0.005;  // [m] less is that of a body on its springs
+constexpr double kCut = 3.0;     // [σ] scale of the loss at the end ...
+constexpr double kWidest = 8.0;  // [-] ... and at the start, over that
+constexpr int kIterations = 14;  // the last eight at the final scale
+// Steps, the first at the widest scale, after which a way that far beyond kShort is one: the
+// later ones of a car at speed change it by less than a half.
+constexpr int kFirstLook = 4;
+constexpr double kFarBeyond = 5.0;  // [-]
+constexpr double kMoves = 3.0;      // [σ] of a translation that is one
+constexpr double kRocks = 0.005;    // [m] less is that of a body on its springs
 // Wheels roll along the car, and a camera ahead of the rear axle swings by tan⁻¹(2 m / 4 m).
 constexpr double kSwing = 30.0 * kDegree;
 // Nor does a car turn on the spot: [m] the tightest bend of a camera's way, [rad] a turn's noise.
@@ -137,6 +141,7 @@ std::optional<MotionByDepths> solve(const std::vector<Point>& points, const Eige
     if (factor.info() != Eigen::Success || !step.allFinite()) return std::nullopt;
     motion.T_2_1.R = rotation_from_vector(step.head<3>()) * motion.T_2_1.R;
     motion.T_2_1.t += step.tail<3>();
+    if (i + 1 == kFirstLook && motion.T_2_1.t.norm() > kFarBeyond * kShort) return std::nullopt;
   }
   const auto agreeing = static_cast<double>(sums.agreeing);
   if (sums.agreeing < kFewest || sums.near < kFewestNear ||
