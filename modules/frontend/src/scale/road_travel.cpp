@@ -1,5 +1,6 @@
 #include "road_travel.h"
 
+#include "attitude/mainly_forward.h"
 #include "two_view/below_the_sky.h"
 
 #include <algorithm>
@@ -55,6 +56,13 @@ bool lies_in_the_road(const RoadStep& step, double direction_sigma) {
   return std::abs(elevation) <= kBeyond * std::hypot(level, springs);
 }
 
+/// What a camera that looks aside sees beyond a lane is no road: kerb, parked cars, house fronts.
+/// It rests when the car does, but how fast it passes says nothing.
+bool looks_aside(const RoadStep& step) {
+  const Eigen::Vector3d along = step.T_2_1.R.transpose() * step.T_2_1.t.normalized();
+  return std::abs(step.R_level_cam.row(2).dot(along)) < kMainlyForward;
+}
+
 }  // namespace
 
 std::optional<MeasuredTravel> road_travel(const RoadPair& road, const TwoView& seen,
@@ -83,6 +91,7 @@ std::optional<MeasuredTravel> road_travel(const RoadPair& road, const TwoView& s
   }
   // Two views saw a translation: a road that rests contradicts them, and one of the two is wrong.
   if (directed && aligned.length < reach) return std::nullopt;
+  if (looks_aside(step) && aligned.length > reach) return std::nullopt;
   const double unit = prior.camera_height > 0.0 ? prior.camera_height : 1.0;
   return MeasuredTravel{aligned.length * unit, sigma * unit, LengthSource::kRoadImage,
                         prior.camera_height > 0.0};
