@@ -1,4 +1,5 @@
 #include "commands.h"
+#include "terminal/quiet_libraries.h"
 #include "terminal/usage.h"
 
 #include "oneac/base/error.h"
@@ -11,6 +12,7 @@
 #include <stdexcept>
 
 int main(int argc, char** argv) {
+  oneac::app::quiet_libraries();
   CLI::App program{"Where is the car going? Egomotion from one camera and a rawlog."};
   program.set_version_flag("--version", oneac::version());
   program.require_subcommand(1);
