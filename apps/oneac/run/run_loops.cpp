@@ -1,5 +1,6 @@
 #include "run_loops.h"
 
+#include "odometry_edges.h"
 #include "terminal/interrupt.h"
 #include "terminal/progress_bar.h"
 
@@ -18,31 +19,6 @@
 
 namespace oneac::app {
 namespace {
-
-/// A step as long as it is in the trajectory; one without metres may be of any length.
-OdometryStep to_odometry_step(const StepResult& step) {
-  OdometryStep out{step.pose, step.covariance};
-  if (step.metric || !(step.length > 0.0) || !(step.pose.t.norm() > 0.0)) return out;
-  const double factor = step.length / step.pose.t.norm();
-  out.T_2_1.t *= factor;
-  out.covariance.rightCols<3>() *= factor;
-  out.covariance.bottomRows<3>() *= factor;
-  out.covariance.bottomRightCorner<3, 3>() += out.T_2_1.t * out.T_2_1.t.transpose();
-  return out;
-}
-
-/// What the steps from one keyframe to the next add up to; zero over a loss of tracking.
-Eigen::Matrix<double, 6, 6> covariance_between(const Keyframe& before, const Keyframe& keyframe,
-                                               const DriveRecord& record) {
-  std::vector<OdometryStep> steps;
-  if (before.segment != keyframe.segment) return covariance_of_steps(steps);
-  for (std::size_t i = before.frame + 1; i <= keyframe.frame; ++i) {
-    const auto& step = record.frames.at(i).step;
-    if (!step || step->status == StepStatus::kPredicted) return covariance_of_steps({});
-    steps.push_back(to_odometry_step(*step));
-  }
-  return covariance_of_steps(steps);
-}
 
 LoopKeyframe to_loop_keyframe(const Keyframe& keyframe, const DriveRecord& record) {
   LoopKeyframe out;
@@ -162,18 +138,6 @@ std::vector<Eigen::Isometry3d> moved_frames(const DriveRecord& record,
   return frames;
 }
 
-/// The keyframes without points, their edges as uncertain as the graph was solved with.
-std::vector<Keyframe> chain_of(const DriveRecord& record, const ClosedDrive& closed) {
-  std::vector<Keyframe> chain;
-  for (std::size_t i = 0; i < record.keyframes.size(); ++i) {
-    Keyframe& keyframe = chain.emplace_back();
-    keyframe.id = record.keyframes[i].id;
-    keyframe.T_first_cam = record.keyframes[i].T_first_cam;
-    keyframe.information = g2o_information(closed.keyframes[i]);
-  }
-  return chain;
-}
-
 }  // namespace
 
 Trajectory ClosedDrive::camera_trajectory(const DriveRecord& record) const {
@@ -242,7 +206,7 @@ void write_closed_drive(const DriveRecord& record, const ClosedDrive& closed,
   DriveRecord moved;
   moved.keyframes = closed.moved_keyframes(record);
   write("keyframes_optimised.tum", format_tum(moved.keyframe_trajectory()));
-  write("graph.g2o", format_g2o(chain_of(record, closed)) +
+  write("graph.g2o", format_g2o(keyframes_by_steps(record)) +
                          format_g2o_loops(closed.graph.loops, closed.keyframes));
   write_file_atomically(folder / "points.ply",
                         [&](std::ostream& out) { write_ply(moved.keyframes, out); });

@@ -1,5 +1,6 @@
 #include "run_outputs.h"
 
+#include "odometry_edges.h"
 #include "result_files.h"
 
 #include "oneac/base/atomic_file.h"
@@ -52,7 +53,7 @@ std::string format_tilts(const std::vector<FrameResult>& frames) {
 
 void write_map(const DriveRecord& record, const std::filesystem::path& folder) {
   write_file_atomically(folder / "keyframes.tum", format_tum(record.keyframe_trajectory()));
-  write_file_atomically(folder / "graph.g2o", format_g2o(record.keyframes));
+  write_file_atomically(folder / "graph.g2o", format_g2o(keyframes_by_steps(record)));
   write_file_atomically(folder / "points.ply",
                         [&](std::ostream& out) { write_ply(record.keyframes, out); });
   write_file_atomically(folder / "map.simplemap",
