@@ -1,11 +1,14 @@
 #include "drive_fixture.h"
 
+#include "oneac/evaluation/covariance_io.h"
 #include "oneac/evaluation/relative_poses_io.h"
 #include "oneac/evaluation/trajectory_io.h"
 
+#include <Eigen/Dense>
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
+#include <sstream>
 #include <string>
 
 namespace oneac {
@@ -52,6 +55,40 @@ TEST_F(RunVerb, WritesTheColumnsThatOthersScriptAgainst) {
             "suspension_pitch_deg,suspension_sigma_deg");
   EXPECT_EQ(first_line(read_file(out / "timings.csv")),
             "index1,index2,ms_decode,ms_features,ms_estimate,ms_refine");
+}
+
+/// Sum over the edges of the variance of rotation [rad²], about all axes.
+double rotation_variance_of_graph(const std::string& graph) {
+  double sum = 0.0;
+  std::istringstream lines(graph);
+  for (std::string line; std::getline(lines, line);) {
+    std::istringstream words(line);
+    std::string word;
+    for (int skipped = 0; skipped < 10; ++skipped) words >> word;  // tag, two ids, seven of a pose
+    if (line.rfind("EDGE_SE3:QUAT", 0) != 0) continue;
+    Eigen::Matrix<double, 6, 6> information;
+    for (int r = 0; r < 6; ++r) {
+      for (int c = r; c < 6; ++c) {
+        words >> information(r, c);
+        information(c, r) = information(r, c);
+      }
+    }
+    sum += 4.0 * information.inverse().bottomRightCorner<3, 3>().trace();  // of half an angle
+  }
+  return sum;
+}
+
+// The window's own information is that of a keyframe whose landmarks are known: a hundredth.
+TEST_F(RunVerb, EdgesOfTheGraphAreAsUncertainAsTheirPairs) {
+  const fs::path out = run("a");
+  double of_pairs = 0.0;
+  for (const CovarianceRow& row : read_covariances(out / "covariance.csv")) {
+    of_pairs += row.covariance.topLeftCorner<3, 3>().trace();
+  }
+  const double of_graph = rotation_variance_of_graph(read_file(out / "graph.g2o"));
+  ASSERT_GT(of_pairs, 0.0);
+  EXPECT_LT(of_graph, 1.01 * of_pairs);
+  EXPECT_GT(of_graph, 0.7 * of_pairs) << "but for the frames behind the last keyframe";
 }
 
 TEST_F(RunVerb, GivesTheSameBytesAtAnyThreadCount) {
