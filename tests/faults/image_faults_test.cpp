@@ -88,8 +88,11 @@ TEST_F(ImageFaults, ACmykJpegIsReadAsGrey) {
 TEST_F(ImageFaults, BlackAndSaturatedImagesGiveFinitePosesThatAreNotMetric) {
   for (const int level : {0, 255}) {
     test::Objects objects;
-    const cv::Mat flat(test::kHeight, test::kWidth, CV_8U, cv::Scalar(level));
-    for (int i = 0; i < 5; ++i) objects.push_back(test::stored_image("CAM", 0.1 * i, flat));
+    for (int i = 0; i < 5; ++i) {
+      cv::Mat flat(test::kHeight, test::kWidth, CV_8U, cv::Scalar(level));
+      flat.at<std::uint8_t>(0, i) ^= 1U;  // or they would repeat each other
+      objects.push_back(test::stored_image("CAM", 0.1 * i, flat));
+    }
     test::write_log(log(), objects);
     expect_exit(run(), 0, {});
     EXPECT_EQ(poses_written(), 5U) << "level " << level;
