@@ -25,7 +25,8 @@ mrpt::obs::CObservationImage::Ptr image_at(double time_s, const std::string& lab
   auto observation = mrpt::obs::CObservationImage::Create();
   observation->timestamp = mrpt::Clock::fromDouble(time_s);
   observation->sensorLabel = label;
-  observation->image = grey_image(77);
+  // A wall that flickers: an image that repeats the one before would be passed over.
+  observation->image = grey_image(static_cast<std::uint8_t>(70 + std::lround(10.0 * time_s) % 50));
   observation->cameraParams.setIntrinsicParamsFromValues(50.0, 51.0, 32.0, 24.0);
   observation->cameraParams.ncols = 64;
   observation->cameraParams.nrows = 48;
