@@ -34,8 +34,8 @@ constexpr double kMajority = 0.5;
 constexpr double kCut = 3.0;     // [σ] scale of the loss at the end ...
 constexpr double kWidest = 8.0;  // [-] ... and at the start, over that
 constexpr int kIterations = 14;  // the last eight at the final scale
-// Steps, the first at the widest scale, after which a way that far beyond kShort is one: the
-// later ones of a car at speed change it by less than a half.
+// Steps, the first at the widest scale, after which a way that far beyond kShort is taken for one:
+// the rest would have to bring it back to a fifth.
 constexpr int kFirstLook = 4;
 constexpr double kFarBeyond = 5.0;  // [-]
 constexpr double kMoves = 3.0;      // [σ] of a translation that is one
