@@ -46,22 +46,6 @@ bool learns_camera(const RunOptions& options) {
   return options.front_end.self_calibration.refine != "off";
 }
 
-/// The line that ends a run.
-std::string files_text(const DriveRecord& record, const std::optional<ClosedDrive>& closed,
-                       const RunOptions& options, bool joined, bool camera) {
-  std::string text =
-      "written to " + options.output +
-      ": trajectory_camera.kitti, trajectory_camera.tum, trajectory_vehicle.tum, "
-      "relative_poses.csv, covariance.csv, tilt.csv, timings.csv, summary.json, report.html, "
-      "params.yaml, files.json";
-  if (!record.keyframes.empty()) text += ", keyframes.tum, graph.g2o, map.simplemap, points.ply";
-  if (closed) text += names_of_closed_drive(record);
-  if (camera) text += ", camera.ini";
-  if (joined) text += ", trajectory.gpx, trajectory.kml";
-  if (joined && options.run.georeference) text += ", trajectory_enu.tum";
-  return text + (record.car_mask.empty() ? "\n" : ", mask.png\n");
-}
-
 void write_all(const DriveRecord& record, const std::optional<ClosedDrive>& closed,
                RunOptions& options, double wall_seconds) {
   const std::filesystem::path folder(options.output);
@@ -71,21 +55,21 @@ void write_all(const DriveRecord& record, const std::optional<ClosedDrive>& clos
       learns_camera(options) ? used_camera_ini(record, options.log) : std::string();
   if (!camera.empty()) write_file_atomically(folder / "camera.ini", camera);
   write_file_atomically(folder / "params.yaml", options.result_parameters());
-  const RunEvaluation evaluation = evaluate_record(record, options);
+  const ClosedDrive* loops = closed ? &*closed : nullptr;
+  const RunEvaluation evaluation = evaluate_record(record, options, loops);
   const GeoreferenceResult& joined = evaluation.georeference;
   write_georeferenced(record, joined, options.run.georeference, folder);
   if (options.run.georeference && !joined.found && !options.run.quiet) {
     std::cerr << "oneac: the drive is not joined to the GPS: " << printable(joined.reason) << '\n';
   }
-  const ClosedDrive* loops = closed ? &*closed : nullptr;
   const std::string summary = summary_json(record, evaluation, options, wall_seconds, loops);
   write_file_atomically(folder / "summary.json", summary);
   write_file_atomically(folder / "report.html",
                         report_html(record, evaluation, options, summary, loops));
   write_file_atomically(folder / "files.json", manifest_json(folder, record.has_scale()));
   std::cout << summary_text(record, evaluation)
-            << (closed ? text_about(*closed, record, evaluation.reference_file) : std::string())
-            << files_text(record, closed, options, joined.found, !camera.empty());
+            << (closed ? text_about(*closed, evaluation.closed_against_poses) : std::string())
+            << "written to " << options.output << ": " << names_of_results(folder) << '\n';
 }
 
 /// Before the results of an earlier run are taken away: a mistyped name costs nobody a drive.

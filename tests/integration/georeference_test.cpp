@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <fstream>
 #include <map>
 #include <sstream>
 #include <string>
@@ -62,6 +63,17 @@ TEST_F(GeoreferencedRun, WritesTheWayForMapsWithItsResidual) {
   EXPECT_NE(read_file(out() / "trajectory.kml").find("<LineString>"), std::string::npos);
   EXPECT_EQ(count_of(read_file(out() / "trajectory_enu.tum"), "\n"), 150U);
   EXPECT_NE(ran.out.find("trajectory.gpx, trajectory.kml, trajectory_enu.tum"), std::string::npos);
+}
+
+// One that oneac calibrate has made, say; a run that learns nothing leaves it alone.
+TEST_F(GeoreferencedRun, DoesNotListACameraThatNoRunWrote) {
+  fs::create_directories(out());
+  std::ofstream(out() / "camera.ini") << "[CAMERA_PARAMS]\n";
+  const ProgramResult ran = run();
+  ASSERT_EQ(ran.exit_code, 0) << ran.err;
+  EXPECT_EQ(read_file(out() / "files.json").find("camera.ini"), std::string::npos);
+  EXPECT_EQ(ran.out.find("camera.ini"), std::string::npos);
+  EXPECT_EQ(read_file(out() / "camera.ini"), "[CAMERA_PARAMS]\n");
 }
 
 TEST_F(GeoreferencedRun, ListsItsFilesWithFrameUnitAndRows) {

@@ -1,5 +1,7 @@
 #include "result_files.h"
 
+#include "oneac/base/atomic_file.h"
+#include "oneac/base/error.h"
 #include "oneac/base/version.h"
 
 #include <nlohmann/json.hpp>
@@ -9,10 +11,22 @@
 #include <cstddef>
 #include <fstream>
 #include <iterator>
+#include <string_view>
 #include <system_error>
 
 namespace oneac::app {
 namespace {
+
+/// A name that a run may write, and what files.json says of it.
+struct ResultFile {
+  enum class Rows { kNone, kLines, kLinesBelowHeader };
+
+  const char* name;
+  const char* content;  ///< in a few words
+  const char* frame;    ///< of its poses or positions; "" where there are none
+  bool lengths;         ///< holds some: in metres, or in units where the drive has no scale
+  Rows rows;            ///< what a row is
+};
 
 using Rows = ResultFile::Rows;
 
@@ -21,20 +35,21 @@ constexpr const char* kFirstVehicle = "first vehicle pose (X forward, Y left, Z 
 constexpr const char* kSecondCamera = "second camera of each pair";
 constexpr const char* kEarth = "WGS84";
 
+// In the order in which a run names them.
 constexpr std::array kFiles{
     ResultFile{"trajectory_camera.kitti", "camera, per frame", kFirstCamera, true, Rows::kLines},
     ResultFile{"trajectory_camera.tum", "camera, per frame", kFirstCamera, true, Rows::kLines},
     ResultFile{"trajectory_vehicle.tum", "vehicle, per frame", kFirstVehicle, true, Rows::kLines},
-    ResultFile{"trajectory_enu.tum", "vehicle, per frame", "east, north, up of the first GPS fix",
-               true, Rows::kLines},
-    ResultFile{"trajectory.gpx", "vehicle, per frame", kEarth, false, Rows::kNone},
-    ResultFile{"trajectory.kml", "vehicle, per frame", kEarth, false, Rows::kNone},
     ResultFile{"relative_poses.csv", "X2 = R X1 + t, per pair", kSecondCamera, true,
                Rows::kLinesBelowHeader},
     ResultFile{"covariance.csv", "covariance of (w, t), per pair", kSecondCamera, true,
                Rows::kLinesBelowHeader},
     ResultFile{"tilt.csv", "tilt of the camera, per frame", "", false, Rows::kLinesBelowHeader},
     ResultFile{"timings.csv", "CPU time, per pair", "", false, Rows::kLinesBelowHeader},
+    ResultFile{"summary.json", "counts, scale, tilt, errors", "", false, Rows::kNone},
+    ResultFile{"report.html", "plots and worst frames", "", false, Rows::kNone},
+    ResultFile{"params.yaml", "effective parameters", "", false, Rows::kNone},
+    ResultFile{"files.json", "this list", "", false, Rows::kNone},
     ResultFile{"keyframes.tum", "camera, per keyframe", kFirstCamera, true, Rows::kLines},
     ResultFile{"graph.g2o", "keyframes and constraints", kFirstCamera, true, Rows::kLines},
     ResultFile{"map.simplemap", "MRPT's map of the keyframes", kFirstVehicle, true, Rows::kNone},
@@ -49,18 +64,64 @@ constexpr std::array kFiles{
                kFirstVehicle, true, Rows::kLines},
     ResultFile{"keyframes_optimised.tum", "camera, per keyframe, loops closed", kFirstCamera, true,
                Rows::kLines},
-    ResultFile{"mask.png", "what belongs to the car", "", false, Rows::kNone},
     ResultFile{"camera.ini", "camera of the raw images as used", "", false, Rows::kNone},
-    ResultFile{"params.yaml", "effective parameters", "", false, Rows::kNone},
-    ResultFile{"summary.json", "counts, scale, tilt, errors", "", false, Rows::kNone},
-    ResultFile{"report.html", "plots and worst frames", "", false, Rows::kNone},
-    ResultFile{"files.json", "this list", "", false, Rows::kNone},
+    ResultFile{"trajectory.gpx", "vehicle, per frame", kEarth, false, Rows::kNone},
+    ResultFile{"trajectory.kml", "vehicle, per frame", kEarth, false, Rows::kNone},
+    ResultFile{"trajectory_enu.tum", "vehicle, per frame", "east, north, up of the first GPS fix",
+               true, Rows::kLines},
+    ResultFile{"mask.png", "what belongs to the car", "", false, Rows::kNone},
 };
+
+constexpr const char* kCameraFile = "camera.ini";
+// What the first line of it begins with: others write files of this name.
+constexpr const char* kOfARun = "// used by oneac run";
+
+bool is_camera_of_a_run(const std::filesystem::path& file) {
+  std::ifstream in(file);
+  std::string line;
+  return std::getline(in, line) && line.rfind(kOfARun, 0) == 0;
+}
+
+/// Names that people give their own files, too: a run's have this at their beginning.
+struct Signature {
+  std::string_view name, text;
+};
+constexpr Signature kSignatures[] = {{"trajectory.gpx", "creator=\"oneac"},
+                                     {"trajectory.kml", "<name>oneac</name>"},
+                                     {"files.json", "\"by\": \"oneac"}};
+
+bool begins_with_signature(const Signature& signature, const std::filesystem::path& file) {
+  constexpr std::streamsize kBeginning = 400;  // [byte]
+  std::ifstream in(file, std::ios::binary);
+  std::string beginning(kBeginning, ' ');
+  in.read(beginning.data(), kBeginning);
+  return beginning.find(signature.text) != std::string::npos;
+}
+
+/// Not what a run has written.
+bool belongs_to_others(std::string_view name, const std::filesystem::path& file) {
+  for (const Signature& signature : kSignatures) {
+    if (name == signature.name) return !begins_with_signature(signature, file);
+  }
+  return name == kCameraFile && !is_camera_of_a_run(file);
+}
+
+[[noreturn]] void refuse_to_overwrite(const std::filesystem::path& file) {
+  throw InputError(file.string(), "no run has written it, and this one would overwrite it",
+                   "name another folder with -o");
+}
 
 std::size_t lines_of(const std::filesystem::path& file) {
   std::ifstream in(file, std::ios::binary);
   return static_cast<std::size_t>(
       std::count(std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>(), '\n'));
+}
+
+/// Whether a run has written it, to this folder.
+bool is_there(const ResultFile& result, const std::filesystem::path& folder) {
+  std::error_code ignored;
+  const std::filesystem::path file = folder / result.name;
+  return std::filesystem::is_regular_file(file, ignored) && !belongs_to_others(result.name, file);
 }
 
 std::string unit_of(const ResultFile& file, bool metric) {
@@ -84,20 +145,44 @@ nlohmann::ordered_json entry_of(const ResultFile& file, const std::filesystem::p
 
 }  // namespace
 
-const ResultFile* ResultFiles::begin() const {
-  return kFiles.data();
+void clear_of_earlier_run(const std::filesystem::path& folder) {
+  for (const ResultFile& result : kFiles) {
+    const std::filesystem::path file = replaced_file(folder / result.name);
+    std::error_code ignored;
+    if (belongs_to_others(result.name, file)) continue;
+    if (std::filesystem::is_regular_file(file, ignored)) std::filesystem::remove(file, ignored);
+  }
 }
-const ResultFile* ResultFiles::end() const {
-  return kFiles.data() + kFiles.size();
+
+void require_no_other_camera(const std::filesystem::path& folder) {
+  const std::filesystem::path file = folder / kCameraFile;
+  std::error_code ignored;
+  if (!std::filesystem::exists(file, ignored) || is_camera_of_a_run(file)) return;
+  refuse_to_overwrite(file);
+}
+
+void require_no_other_results(const std::filesystem::path& folder) {
+  for (const Signature& signature : kSignatures) {
+    const std::filesystem::path file = folder / signature.name;
+    std::error_code ignored;
+    if (!std::filesystem::exists(file, ignored)) continue;
+    if (belongs_to_others(signature.name, file)) refuse_to_overwrite(file);
+  }
+}
+
+std::string names_of_results(const std::filesystem::path& folder) {
+  std::string names;
+  for (const ResultFile& file : kFiles) {
+    if (is_there(file, folder)) names += (names.empty() ? "" : ", ") + std::string(file.name);
+  }
+  return names;
 }
 
 std::string manifest_json(const std::filesystem::path& folder, bool metric) {
   nlohmann::ordered_json files = nlohmann::ordered_json::array();
   for (const ResultFile& file : kFiles) {
-    std::error_code ignored;
-    const bool is_this_list = std::string(file.name) == "files.json";
-    if (!is_this_list && !std::filesystem::is_regular_file(folder / file.name, ignored)) continue;
-    files.push_back(entry_of(file, folder, metric));
+    const bool is_this_list = std::string_view(file.name) == "files.json";
+    if (is_this_list || is_there(file, folder)) files.push_back(entry_of(file, folder, metric));
   }
   return nlohmann::ordered_json{{"by", "oneac " + version()}, {"files", files}}.dump(2) + "\n";
 }

@@ -5,22 +5,20 @@
 
 namespace oneac::app {
 
-/// A name that a run may write, and what files.json says of it.
-struct ResultFile {
-  enum class Rows { kNone, kLines, kLinesBelowHeader };
+/// Takes the files of an earlier run out of the folder: it holds those of one run only. What no run
+/// writes stays. @throws OutputError naming what has the name of a result and is no file
+void clear_of_earlier_run(const std::filesystem::path& folder);
 
-  const char* name;
-  const char* content;  ///< in a few words
-  const char* frame;    ///< of its poses or positions; "" where there are none
-  bool lengths;         ///< holds some: in metres, or in units where the drive has no scale
-  Rows rows;            ///< what a row is
-};
+/// Before a drive that writes camera.ini: one that no run has written, such as that of oneac
+/// calibrate, is nobody's to overwrite. @throws InputError naming it
+void require_no_other_camera(const std::filesystem::path& folder);
 
-/// One entry per name; a place to add a result. Its camera.ini may be another's.
-struct ResultFiles {
-  const ResultFile* begin() const;
-  const ResultFile* end() const;
-};
+/// The same of trajectory.gpx, trajectory.kml and files.json, names that people use themselves.
+void require_no_other_results(const std::filesystem::path& folder);
+
+/// The results of a run that are in the folder, "trajectory_camera.kitti, trajectory_camera.tum,
+/// …".
+[[nodiscard]] std::string names_of_results(const std::filesystem::path& folder);
 
 /// files.json: the results that are in the folder now, with frame, unit and rows.
 /// @param metric  lengths are metres

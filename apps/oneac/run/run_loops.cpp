@@ -213,30 +213,13 @@ void write_closed_drive(const DriveRecord& record, const ClosedDrive& closed,
   write("map.simplemap", format_simple_map(moved.keyframes, record.mount(), record.camera));
 }
 
-std::string names_of_closed_drive(const DriveRecord& record) {
-  return std::string(
-             ", loops.csv, trajectory_optimised_camera.kitti, trajectory_optimised_camera.tum, "
-             "trajectory_optimised_vehicle.tum") +
-         (record.keyframes.empty() ? "" : ", keyframes_optimised.tum");
-}
-
-std::optional<Evaluation> evaluate_closed(const ClosedDrive& closed, const DriveRecord& record,
-                                          const std::string& reference_file) {
-  if (reference_file.empty() || record.frames.size() < 2) return std::nullopt;
-  return evaluate_run(record.relative_poses(), closed.camera_trajectory(record),
-                      read_trajectory(reference_file),
-                      record.has_scale() ? Alignment::kSe3 : Alignment::kSim3);
-}
-
-std::string text_about(const ClosedDrive& closed, const DriveRecord& record,
-                       const std::string& reference_file) {
+std::string text_about(const ClosedDrive& closed, const std::optional<Evaluation>& after) {
   std::string text = std::to_string(closed.graph.loops.size()) + " loops of " +
                      std::to_string(closed.report.keyframes) + " keyframes";
   if (closed.report.not_metric > 0) {
     text +=
         " (" + std::to_string(closed.report.not_metric) + " of them without metres: none there)";
   }
-  const auto after = evaluate_closed(closed, record, reference_file);
   if (after && after->trajectory && !closed.graph.loops.empty()) {
     text += ", APE after them " + significant_text(after->trajectory->ape.rmse, 3) + " m (RMS)";
   }

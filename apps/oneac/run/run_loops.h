@@ -39,17 +39,9 @@ struct ClosedDrive {
 void write_closed_drive(const DriveRecord& record, const ClosedDrive& closed,
                         const std::filesystem::path& folder);
 
-/// The files that write_closed_drive() adds, for the line that names what was written.
-[[nodiscard]] std::string names_of_closed_drive(const DriveRecord& record);
-
-/// The line about loops that `oneac run` prints, with the APE before and after where there is a
-/// reference.
-[[nodiscard]] std::string text_about(const ClosedDrive& closed, const DriveRecord& record,
-                                     const std::string& reference_file);
-
-/// APE of the closed trajectory; empty without a reference.
-[[nodiscard]] std::optional<Evaluation> evaluate_closed(const ClosedDrive& closed,
-                                                        const DriveRecord& record,
-                                                        const std::string& reference_file);
+/// The line about loops that `oneac run` prints, with the APE after them.
+/// @param after  of the closed trajectory; empty without a reference
+[[nodiscard]] std::string text_about(const ClosedDrive& closed,
+                                     const std::optional<Evaluation>& after);
 
 }  // namespace oneac::app

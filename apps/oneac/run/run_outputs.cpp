@@ -1,7 +1,6 @@
 #include "run_outputs.h"
 
 #include "odometry_edges.h"
-#include "result_files.h"
 
 #include "oneac/base/atomic_file.h"
 #include "oneac/base/error.h"
@@ -134,45 +133,6 @@ std::string about_faulty_answers(const DriveRecord& record) {
          ")";
 }
 
-constexpr const char* kCameraFile = "camera.ini";
-// What the first line of it begins with: others write files of this name.
-constexpr const char* kOfARun = "// used by oneac run";
-
-bool is_camera_of_a_run(const std::filesystem::path& file) {
-  std::ifstream in(file);
-  std::string line;
-  return std::getline(in, line) && line.rfind(kOfARun, 0) == 0;
-}
-
-/// Names that people give their own files, too: a run's have this at their beginning.
-struct Signature {
-  std::string_view name, text;
-};
-constexpr Signature kSignatures[] = {{"trajectory.gpx", "creator=\"oneac"},
-                                     {"trajectory.kml", "<name>oneac</name>"},
-                                     {"files.json", "\"by\": \"oneac"}};
-
-bool begins_with_signature(const Signature& signature, const std::filesystem::path& file) {
-  constexpr std::streamsize kBeginning = 400;  // [byte]
-  std::ifstream in(file, std::ios::binary);
-  std::string beginning(kBeginning, ' ');
-  in.read(beginning.data(), kBeginning);
-  return beginning.find(signature.text) != std::string::npos;
-}
-
-/// Not what a run has written.
-bool belongs_to_others(std::string_view name, const std::filesystem::path& file) {
-  for (const Signature& signature : kSignatures) {
-    if (name == signature.name) return !begins_with_signature(signature, file);
-  }
-  return name == kCameraFile && !is_camera_of_a_run(file);
-}
-
-[[noreturn]] void refuse_to_overwrite(const std::filesystem::path& file) {
-  throw InputError(file.string(), "no run has written it, and this one would overwrite it",
-                   "name another folder with -o");
-}
-
 /// The raw image's camera whose undistorted images have a focal length `factor` times as long:
 /// distortion is a function of the angle to the axis, which becomes as much smaller.
 PinholeCamera with_longer_focal(PinholeCamera camera, double factor) {
@@ -199,31 +159,6 @@ std::string about_lone_images(const DriveRecord& record) {
 }
 
 }  // namespace
-
-void clear_of_earlier_run(const std::filesystem::path& folder) {
-  for (const ResultFile& result : ResultFiles()) {
-    const std::filesystem::path file = replaced_file(folder / result.name);
-    std::error_code ignored;
-    if (belongs_to_others(result.name, file)) continue;
-    if (std::filesystem::is_regular_file(file, ignored)) std::filesystem::remove(file, ignored);
-  }
-}
-
-void require_no_other_camera(const std::filesystem::path& folder) {
-  const std::filesystem::path file = folder / kCameraFile;
-  std::error_code ignored;
-  if (!std::filesystem::exists(file, ignored) || is_camera_of_a_run(file)) return;
-  refuse_to_overwrite(file);
-}
-
-void require_no_other_results(const std::filesystem::path& folder) {
-  for (const Signature& signature : kSignatures) {
-    const std::filesystem::path file = folder / signature.name;
-    std::error_code ignored;
-    if (!std::filesystem::exists(file, ignored)) continue;
-    if (belongs_to_others(signature.name, file)) refuse_to_overwrite(file);
-  }
-}
 
 std::string used_camera_ini(const DriveRecord& record, const std::string& log) {
   if (!is_five_term_lens(record.raw_camera)) return "";

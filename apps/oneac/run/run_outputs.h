@@ -8,17 +8,6 @@
 
 namespace oneac::app {
 
-/// Takes the files of an earlier run out of the folder: it holds those of one run only. What no run
-/// writes stays. @throws OutputError naming what has the name of a result and is no file
-void clear_of_earlier_run(const std::filesystem::path& folder);
-
-/// Before a drive that writes camera.ini: one that no run has written, such as that of oneac
-/// calibrate, is nobody's to overwrite. @throws InputError naming it
-void require_no_other_camera(const std::filesystem::path& folder);
-
-/// The same of trajectory.gpx, trajectory.kml and files.json, names that people use themselves.
-void require_no_other_results(const std::filesystem::path& folder);
-
 /// The camera that a run with a learned focal length used in the end, for --calibration: that of
 /// the raw images, with its 1σ. Empty for a lens that is not plumb bob.
 [[nodiscard]] std::string used_camera_ini(const DriveRecord& record, const std::string& log);

@@ -211,8 +211,7 @@ Json timing_json(const DriveRecord& record, const RunOptions& options, double wa
           {"refine", stage_json(refine)}};
 }
 
-Json loops_json(const ClosedDrive& closed, const DriveRecord& record,
-                const RunEvaluation& evaluation) {
+Json loops_json(const ClosedDrive& closed, const RunEvaluation& evaluation) {
   const LoopReport& report = closed.report;
   Json json = {{"loops", closed.graph.loops.size()},
                {"keyframes", report.keyframes},
@@ -221,7 +220,7 @@ Json loops_json(const ClosedDrive& closed, const DriveRecord& record,
                {"pairs_verified", report.verified},
                {"refused_by_odometry", report.impossible},
                {"refused_by_other_loops", report.contradicted}};
-  const auto after = evaluate_closed(closed, record, evaluation.reference_file);
+  const auto& after = evaluation.closed_against_poses;
   if (!after || !after->trajectory || !evaluation.against_poses->trajectory) return json;
   json["ape_before_m"] = evaluation.against_poses->trajectory->ape.rmse;
   json["ape_after_m"] = after->trajectory->ape.rmse;
@@ -230,14 +229,20 @@ Json loops_json(const ClosedDrive& closed, const DriveRecord& record,
 
 }  // namespace
 
-RunEvaluation evaluate_record(const DriveRecord& record, const RunOptions& options) {
+RunEvaluation evaluate_record(const DriveRecord& record, const RunOptions& options,
+                              const ClosedDrive* closed) {
   RunEvaluation evaluation;
   evaluation.reference_file = find_reference(options);
   if (!evaluation.reference_file.empty() && record.frames.size() > 1) {
-    evaluation.against_poses =
-        evaluate_run(record.relative_poses(), record.camera_trajectory(),
-                     read_trajectory(evaluation.reference_file),
-                     metric_word(record) == "none" ? Alignment::kSim3 : Alignment::kSe3);
+    const Trajectory reference = read_trajectory(evaluation.reference_file);
+    const auto against = [&](const Trajectory& camera) {
+      return evaluate_run(record.relative_poses(), camera, reference,
+                          metric_word(record) == "none" ? Alignment::kSim3 : Alignment::kSe3);
+    };
+    evaluation.against_poses = against(record.camera_trajectory());
+    if (closed != nullptr) {
+      evaluation.closed_against_poses = against(closed->camera_trajectory(record));
+    }
   }
   evaluation.against_gps = compare_with_gps(record);
   evaluation.gps_lag_s = lag_of_gps(record.vehicle_trajectory(), record.source.reference);
@@ -278,7 +283,7 @@ std::string summary_json(const DriveRecord& record, const RunEvaluation& evaluat
   if (evaluation.gps_lag_s) reference["gps"]["lag_s"] = *evaluation.gps_lag_s;
   json["reference"] = reference;
   json["georeference"] = georeference_json(record, evaluation.georeference);
-  if (closed != nullptr) json["loops"] = loops_json(*closed, record, evaluation);
+  if (closed != nullptr) json["loops"] = loops_json(*closed, evaluation);
   json["timing"] = timing_json(record, options, wall_seconds);
   return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }

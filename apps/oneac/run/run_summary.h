@@ -24,6 +24,7 @@ struct GpsComparison {
 struct RunEvaluation {
   std::string reference_file;  ///< "" when there is none
   std::optional<Evaluation> against_poses;
+  std::optional<Evaluation> closed_against_poses;  ///< the same with the loops closed
   std::optional<GpsComparison> against_gps;
   std::optional<double> gps_lag_s;  ///< see lag_of_gps
   GeoreferenceResult georeference;  ///< how the drive lies on the earth, or why that is not known
@@ -31,7 +32,8 @@ struct RunEvaluation {
 
 /// Compares with --reference, else with poses found beside the log (`<base>_poses.txt`,
 /// `poses.txt`), and with the log's GPS. @throws InputError when --reference cannot be read
-[[nodiscard]] RunEvaluation evaluate_record(const DriveRecord& record, const RunOptions& options);
+[[nodiscard]] RunEvaluation evaluate_record(const DriveRecord& record, const RunOptions& options,
+                                            const ClosedDrive* closed = nullptr);
 
 /// summary.json; with `loops` where they were looked for. Only the object "timing" may differ
 /// between runs of the same input and parameters.
