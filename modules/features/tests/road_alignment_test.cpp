@@ -104,6 +104,23 @@ TEST(RoadAlignment, RecoversTheLengthOfAStepInCameraHeights) {
   }
 }
 
+/// A car that turns off does not drive on what lies ahead of it: a kerb may stand between.
+TEST(RoadAlignment, IsLessSureInABendOfWhatTheCarDoesNotDriveOn) {
+  const auto in_bend = [](double yaw) {
+    Drive drive{asphalt(3)};
+    drive.yaw = yaw;
+    RoadStep step = drive.step();
+    step.length = drive.length;
+    step.length_sigma = 0.05;
+    return drive.align(step);
+  };
+  const RoadAlignment straight = in_bend(0.0), tight = in_bend(0.12);  // a circle of 5 heights
+  ASSERT_EQ(straight.status, RoadStatus::kMeasured) << to_string(straight.status);
+  ASSERT_EQ(tight.status, RoadStatus::kMeasured) << to_string(tight.status);
+  EXPECT_LT(straight.relative_sigma, 0.025);
+  EXPECT_GT(tight.relative_sigma, 0.03);
+}
+
 TEST(RoadAlignment, MeasuresStandingAsZeroWithASigma) {
   Drive drive{asphalt(4)};
   drive.length = 0.0;

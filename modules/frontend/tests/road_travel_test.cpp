@@ -1,0 +1,90 @@
+#include "scale/road_travel.h"
+
+#include "texture.h"
+
+#include "oneac/geometry/angles.h"
+#include "oneac/geometry/levelling.h"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Geometry>
+
+#include <algorithm>
+#include <cmath>
+
+namespace oneac {
+namespace {
+
+constexpr double kHeight = 1.5;
+
+PinholeCamera camera() {
+  PinholeCamera camera;
+  camera.width = 640;
+  camera.height = 360;
+  camera.fx = camera.fy = 500.0;
+  camera.cx = 320.0;
+  camera.cy = 130.0;
+  return camera;
+}
+
+/// Asphalt below a level camera at this place [m].
+GreyImage view_from(const Eigen::Vector3d& place) {
+  static const Texture kTexture(3);
+  GreyImage image(camera().width, camera().height, 180);
+  SceneGenerator random(static_cast<int>(1000.0 * place.norm()) + 7);
+  for (int v = 0; v < image.height(); ++v) {
+    for (int u = 0; u < image.width(); ++u) {
+      const Eigen::Vector3d ray = camera().normalise(Eigen::Vector2d(u, v)).homogeneous();
+      if (!(ray.y() > 0.01)) continue;
+      const Eigen::Vector3d X = place + ray * (kHeight / ray.y());
+      const double grey = 42.0 + 0.4 * kTexture(100.0 * X.x(), 100.0 * X.z());
+      image.row(v)[u] =
+          static_cast<std::uint8_t>(std::clamp(std::lround(grey + random.normal(1.0)), 0L, 255L));
+    }
+  }
+  return image;
+}
+
+/// What the road says of a step by `way` [m] that two views saw in the direction `seen`.
+std::optional<MeasuredTravel> told(const Eigen::Vector3d& way, const Eigen::Vector3d& seen,
+                                   StepStatus status = StepStatus::kOk,
+                                   const std::optional<ExpectedLength>& expected = {}) {
+  const GreyImage first = view_from(Eigen::Vector3d::Zero()), second = view_from(way);
+  const RoadPair road{RoadImage(first.view()), RoadImage(second.view()), camera(), {}};
+  TwoView step;
+  step.status = status;
+  step.focal_px = camera().focal_px();
+  if (status == StepStatus::kOk) step.pose.t = -seen.normalized();
+  step.covariance.diagonal().setConstant(1e-6);
+  return road_travel(road, step, {{}, -seen.normalized(), expected, 0.1, kHeight});
+}
+
+const Eigen::Vector3d kAhead(0.0, 0.0, 1.0), kAside(1.0, 0.0, 0.0);
+
+TEST(RoadTravel, TellsTheLengthOfAStepAhead) {
+  const auto travel = told(0.9 * kAhead, kAhead);
+  ASSERT_TRUE(travel.has_value());
+  EXPECT_NEAR(travel->length, 0.9, 3.0 * travel->sigma);
+  EXPECT_TRUE(travel->in_metres);
+}
+
+TEST(RoadTravel, TellsNoLengthOfACameraThatLooksAside) {
+  EXPECT_FALSE(told(0.9 * kAside, kAside).has_value()) << "beyond a lane it sees no road";
+}
+
+TEST(RoadTravel, OfACameraThatLooksAsideTellsARest) {
+  const auto rest = told(Eigen::Vector3d::Zero(), kAside, StepStatus::kNoMotion);
+  ASSERT_TRUE(rest.has_value());
+  EXPECT_LT(rest->length, 3.0 * rest->sigma);
+}
+
+TEST(RoadTravel, TellsNoLengthAlongADirectionThatLeavesTheRoad) {
+  const ExpectedLength expected{0.9, 0.1, 0.6, 1.2};
+  EXPECT_TRUE(told(0.9 * kAhead, kAhead, StepStatus::kOk, expected).has_value());
+  const double rise = 8.0 * kDegree;
+  const Eigen::Vector3d rising(0.0, -std::sin(rise), std::cos(rise));
+  EXPECT_FALSE(told(0.9 * kAhead, rising, StepStatus::kOk, expected).has_value());
+}
+
+}  // namespace
+}  // namespace oneac
