@@ -1,30 +1,15 @@
 #include "drive_record.h"
 
+#include "oneac/frontend/step_metres.h"
 #include "oneac/frontend/trajectory_uncertainty.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <iterator>
 #include <utility>
 
 namespace oneac::app {
-namespace {
-
-/// The step as it is without metres: |t| = 1 or 0, nothing known along t.
-void withdraw_metres_of(StepResult& step) {
-  const double length = step.pose.t.norm();
-  if (step.metric && length > 0.0) {
-    step.pose.t /= length;
-    const Eigen::Matrix3d across =
-        (Eigen::Matrix3d::Identity() - step.pose.t * step.pose.t.transpose()) / length;
-    step.covariance.rightCols<3>() *= across;
-    step.covariance.bottomRows<3>() = across * step.covariance.bottomRows<3>().eval();
-  }
-  step.metric = false;
-  step.length_sigma = 0.0;
-}
-
-}  // namespace
 
 double DriveRecord::car_mask_share() const {
   if (car_mask.empty()) return 0.0;
@@ -49,10 +34,20 @@ void DriveRecord::take(Settled settled) {
   std::move(settled.keyframes.begin(), settled.keyframes.end(), std::back_inserter(keyframes));
 }
 
+void DriveRecord::doubt_metres(double doubt, double max_uncertainty) {
+  for (FrameResult& frame : frames) {
+    if (frame.step) oneac::doubt_metres(*frame.step, doubt, max_uncertainty);
+  }
+  for (Keyframe& keyframe : keyframes) {
+    keyframe.metric = keyframe.metric && doubt <= max_uncertainty;
+  }
+  common_length_sigma = std::hypot(common_length_sigma, doubt);
+}
+
 void DriveRecord::withdraw_metres() {
   for (FrameResult& frame : frames) {
     if (!frame.step) continue;
-    withdraw_metres_of(*frame.step);
+    oneac::withdraw_metres(*frame.step);
   }
   for (Keyframe& keyframe : keyframes) keyframe.metric = false;
 }

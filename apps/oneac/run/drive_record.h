@@ -41,6 +41,8 @@ struct DriveRecord {
   std::string scale_source;          ///< the parameter front_end.scale.source
   GreyImage car_mask;                ///< FrontEnd::car_mask() at the end
   bool car_mask_refused = false;     ///< FrontEnd::car_mask_refused() at the end
+  double length_doubt = 0.0;         ///< FrontEnd::length_doubt() at the end
+  bool stamps_are_wrong = false;     ///< FrontEnd::stamps_are_wrong() at the end
   SourceReport source;
   std::optional<TimeSpan> gps;  ///< from the first fix to the last, of what was read of the log
   std::vector<std::string> setup_faults;  ///< of camera and log, at the end: nothing is in metres
@@ -56,6 +58,9 @@ struct DriveRecord {
   [[nodiscard]] double car_mask_share() const;
   /// Takes over what has become final.
   void take(Settled settled);
+  /// Every length is as unsure as the camera makes it, the steps before it was known, too.
+  /// @param doubt, max_uncertainty  relative 1σ, see doubt_metres() of a step
+  void doubt_metres(double doubt, double max_uncertainty);
   /// Nothing is in metres, the steps before the fault was found neither.
   void withdraw_metres();
   /// The camera on the vehicle: as the log says, with the pitch and roll of `tilt`.

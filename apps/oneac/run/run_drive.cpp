@@ -212,6 +212,9 @@ class Drive {
     record_.car_mask = front_end_.car_mask();
     record_.car_mask_refused = front_end_.car_mask_refused();
     record_.setup_faults = front_end_.setup_faults();
+    record_.length_doubt = front_end_.length_doubt();
+    record_.stamps_are_wrong = front_end_.stamps_are_wrong();
+    record_.doubt_metres(record_.length_doubt, options_.front_end.scale.max_uncertainty);
     const std::string& names = record_.source.names_out_of_order;
     if (!names.empty()) record_.setup_faults.push_back(names);
     if (!record_.setup_faults.empty()) record_.withdraw_metres();

@@ -158,6 +158,18 @@ std::string about_lone_images(const DriveRecord& record) {
          "); their lengths come of the motion before and after";
 }
 
+/// A camera that is in doubt without being refused.
+std::string about_doubted_lengths(const DriveRecord& record) {
+  constexpr double kWorthSaying = 0.015;  // [-] what the height alone leaves open
+  if (!record.setup_faults.empty() || record.length_doubt < kWorthSaying) return "";
+  const CameraBelief& belief = record.camera_belief;
+  return "bends say a focal length of " + fixed_text(belief.focal_px, 0) + " px (to " +
+         fixed_text(100.0 * belief.focal_sigma, 1) + " %) where the calibration has " +
+         fixed_text(belief.given.focal_px(), 0) + " px: lengths are " +
+         fixed_text(100.0 * record.length_doubt, 1) +
+         " % less sure for it; \"oneac calibrate LOG -o camera.ini\" tells more";
+}
+
 }  // namespace
 
 std::string used_camera_ini(const DriveRecord& record, const std::string& log) {
@@ -231,6 +243,14 @@ std::vector<std::string> notes_about(const DriveRecord& record) {
     notes.push_back(
         "nearly half of the image rests while the car travels, more than its own parts can be, so "
         "none of it was masked; mask what is the car's: front_end.features.mask.polygon");
+  }
+  if (const std::string doubt = about_doubted_lengths(record); !doubt.empty()) {
+    notes.push_back(doubt);
+  }
+  if (record.stamps_are_wrong && record.setup_faults.empty()) {
+    notes.push_back(
+        "stamps are not those of the images: lengths that landmarks and road agree on would need "
+        "accelerations that no car has; were images dropped under a fixed rate? Speeds are wrong");
   }
   const bool told = !record.setup_faults.empty();
   if (!told && !record.has_scale() && record.frames.size() > 1) {

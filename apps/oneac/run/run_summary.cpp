@@ -266,6 +266,8 @@ std::string summary_json(const DriveRecord& record, const RunEvaluation& evaluat
   json["tilt_source"] = record.tilt_source;
   json["car_mask_share"] = record.car_mask_share();
   json["car_mask_refused"] = record.car_mask_refused;
+  json["length_doubt"] = record.length_doubt;
+  json["stamps_are_wrong"] = record.stamps_are_wrong;
   json["setup_faults"] = record.setup_faults;
   json["tilt_source_asked_for"] = options.front_end.tilt.source;
   json["counts"] = counts_json(record);

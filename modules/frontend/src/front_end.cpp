@@ -131,6 +131,7 @@ void FrontEnd::learn_camera(const FrameResult& result) {
   const double before = previous_camera_.focal_px();
   const bool changed = learner_->follow(*keyframe, result.index, result.time_s);
   odometry_->blame_camera(learner_->fault());
+  odometry_->doubt_camera(learner_->belief().doubt);
   if (!changed) return;
   previous_camera_ = learner_->used();
   odometry_->renormalise(before / previous_camera_.focal_px());
@@ -205,6 +206,7 @@ TiltBelief FrontEnd::tilt_belief() const {
 Settled FrontEnd::finish() {
   learner_->finish();
   if (started_) odometry_->blame_camera(learner_->fault());
+  odometry_->doubt_camera(learner_->belief().doubt);
   Settled settled = odometry_->finish();
   trajectory_.finish(settled);
   return settled;
@@ -232,6 +234,14 @@ double FrontEnd::camera_height() const {
 
 const std::vector<std::string>& FrontEnd::setup_faults() const {
   return odometry_->setup().faults();
+}
+
+double FrontEnd::length_doubt() const {
+  return odometry_->scale().camera_doubt();
+}
+
+bool FrontEnd::stamps_are_wrong() const {
+  return odometry_->scale().stamps_are_wrong();
 }
 
 double FrontEnd::scale_uncertainty() const {

@@ -37,6 +37,7 @@ StepResult step_result(const FrameStamp& before, const FrameStamp& now, const Tw
   step.metric = length.metric;
   step.length = length.length;
   step.length_sigma = length.sigma;
+  step.camera_doubt = length.camera_doubt;
   step.covariance = step_covariance(step, seen.covariance, length.sigma_m);
   step.acs = seen.pair.size();
   step.inliers = seen.inlier_count;
@@ -182,7 +183,7 @@ FrameResult Odometry::integrate(const FrameStamp& now, TwoView seen, const RoadP
           : scale_.measure_directly(road, seen, link.carried, attitude_.now(), heading(), in_time);
   const auto told = scale_.measure(seen, link.carried, attitude_.now());
   setup_.follow(seen, attitude_.now().R_level_cam);
-  const StepLength length = setup_.checked(scale_.length_of(in_time, told));
+  const StepLength length = setup_.checked_after(scale_.length_of(in_time, told));
   if (seen.status == StepStatus::kOk && length.length > kTellingWay)
     course_.follow(seen.pose.t.normalized());
   seen = as_it_moved(std::move(seen), length, heading());

@@ -33,6 +33,8 @@ class Odometry {
 
   /// Why the camera cannot be as given, or nothing: until told otherwise.
   void blame_camera(const std::optional<std::string>& fault) { setup_.blame_camera(fault); }
+  /// Relative 1σ that lengths by images have by the camera, from the next step on.
+  void doubt_camera(double relative_sigma) { scale_.doubt_camera(relative_sigma); }
   /// Normalised coordinates of the frames to come are longer by this factor.
   void renormalise(double factor) { map_.renormalise(factor); }
 

@@ -1,5 +1,7 @@
 #include "camera/camera_learner.h"
 
+#include "camera/focal_doubt.h"
+
 #include "oneac/test_support/synthetic_bend.h"
 
 #include <gtest/gtest.h>
@@ -57,6 +59,38 @@ TEST(CameraLearner, LeavesAFocalLengthInPeaceThatIsRightOrThatNobodyCanKnow) {
   EXPECT_EQ(straight.belief().bends, 0U);
   EXPECT_FALSE(straight.belief().knows_focal());
   EXPECT_EQ(straight.belief().focal_sigma, SelfCalibrationOptions{}.focal_sigma);
+}
+
+TEST(FocalDoubt, RisesWithWhatContradictsAndVanishesWhereItIsConfirmed) {
+  EXPECT_LT(focal_doubt(0.0, 0.01), 0.002);
+  EXPECT_LT(focal_doubt(0.01, 0.01), 0.003);
+  EXPECT_NEAR(focal_doubt(0.05, 0.022), 0.023, 0.003) << "2 sigma: as likely poor as good";
+  EXPECT_NEAR(focal_doubt(0.08, 0.02), 0.072, 0.003) << "surely poor: all of it";
+  double before = 0.0;
+  for (double off = 0.0; off < 0.3; off += 0.005) {
+    const double doubt = focal_doubt(off, 0.02);
+    EXPECT_GE(doubt, before);
+    EXPECT_EQ(doubt, focal_doubt(-off, 0.02));
+    before = doubt;
+  }
+}
+
+TEST(FocalDoubt, AnAnswerThatIsNoneIsNoDoubt) {
+  EXPECT_EQ(focal_doubt(std::nan(""), 0.01), 0.0);
+  EXPECT_EQ(focal_doubt(0.1, 0.0), 0.0);
+  EXPECT_EQ(focal_doubt(0.1, INFINITY), 0.0);
+  EXPECT_TRUE(std::isfinite(focal_doubt(10.0, 1e-6)));
+}
+
+TEST(CameraLearner, DoubtsAFocalLengthBeforeItAccusesIt) {
+  CameraLearner right({}), wrong({});
+  right.start(true_camera());
+  drive_on(right, 0.03, 1.0);
+  EXPECT_LT(right.belief().doubt, 0.005);
+  wrong.start(true_camera());
+  drive_on(wrong, 0.03, 1.025);
+  EXPECT_FALSE(wrong.fault());
+  EXPECT_NEAR(wrong.belief().doubt, 0.025, 0.01);
 }
 
 TEST(CameraLearner, UsesWhatItLearnedWhenAskedTo) {

@@ -285,6 +285,74 @@ Scale mapped() {
   return scale;
 }
 
+/// A step between images that were dropped: map and road say twice the way.
+StepLength after_a_gap(Scale& scale, double begin_s, double by_map, double by_road) {
+  StepInTime next = step(StepStatus::kOk, begin_s, 1.0);
+  next.direct = MeasuredTravel{by_road, 0.03, LengthSource::kRoadImage, true};
+  return scale.length_of(next, {carried(by_map)});
+}
+
+TEST(Scale, MapAndRoadTogetherAreBelievedAgainstStamps) {
+  Scale scale = mapped();
+  const StepLength agreed = after_a_gap(scale, 10.1, 2.02, 2.0);
+  EXPECT_TRUE(agreed.metric);
+  EXPECT_NEAR(agreed.length, 2.01, 0.02);
+  EXPECT_TRUE(agreed.beside_stamps);
+  const StepLength apart = after_a_gap(scale, 10.2, 2.0, 2.5);
+  EXPECT_FALSE(apart.metric) << "two that disagree prove nothing";
+  StepInTime next = step(StepStatus::kOk, 10.3, 1.0);
+  EXPECT_FALSE(scale.length_of(next, {carried(2.0)}).metric) << "nor does one alone";
+}
+
+TEST(Scale, AStepBesideItsStampTellsNoSpeed) {
+  Scale scale = mapped();
+  static_cast<void>(after_a_gap(scale, 10.1, 2.02, 2.0));
+  const auto expected = scale.expected(10.2, 10.3);
+  ASSERT_TRUE(expected);
+  EXPECT_NEAR(expected->length, 1.0, 0.05);
+}
+
+TEST(Scale, StampsThatAreWrongAgainAndAgainSilenceInertia) {
+  Scale scale = mapped();
+  const auto goes_on = [&](double begin_s) {
+    return scale.length_of(step(StepStatus::kOk, begin_s, 1.0), {});
+  };
+  EXPECT_TRUE(goes_on(10.1).metric);
+  for (const double begin_s : {10.2, 10.4, 10.6}) {
+    EXPECT_FALSE(scale.stamps_are_wrong());
+    EXPECT_TRUE(after_a_gap(scale, begin_s, 2.02, 2.0).metric);
+    EXPECT_TRUE(after_a_gap(scale, begin_s + 0.1, 1.01, 1.0).metric);
+  }
+  EXPECT_TRUE(scale.stamps_are_wrong());
+  EXPECT_FALSE(goes_on(10.8).metric);
+}
+
+TEST(Scale, InertiaAloneDoesNotMeasureTheMap) {
+  Scale scale = driving();
+  KeyframePair without_road = road(2.0, 2.0);
+  without_road.acs.clear();
+  ASSERT_TRUE(scale.length_of(step(StepStatus::kOk, 10.1, 1.0), {}).metric);
+  static_cast<void>(scale.correct({without_road, {}}, {}, kFocal));
+  EXPECT_GT(scale.uncertainty(), 0.1);
+}
+
+TEST(Scale, ACameraInDoubtMakesLengthsByImagesUnsureAndNotSpeeds) {
+  Scale scale = mapped();
+  const StepLength before = scale.length_of(step(StepStatus::kOk, 10.1, 1.0), {carried(1.0)});
+  scale.doubt_camera(0.03);
+  const StepLength doubted = scale.length_of(step(StepStatus::kOk, 10.2, 1.0), {carried(1.0)});
+  EXPECT_TRUE(doubted.metric);
+  EXPECT_NEAR(doubted.sigma, std::hypot(before.sigma, 0.03), 1e-3);
+  EXPECT_NEAR(doubted.sigma_m, doubted.sigma * doubted.length, 1e-9);
+  EXPECT_EQ(doubted.camera_doubt, 0.03);
+  scale.doubt_camera(0.07);
+  EXPECT_FALSE(scale.length_of(step(StepStatus::kOk, 10.3, 1.0), {carried(1.0)}).metric);
+  EXPECT_FALSE(scale.correct({road(1.0, 1.0), {}}, {}, kFocal).metric);
+  Scale by_speed = started(by("gps"));
+  by_speed.doubt_camera(0.07);
+  EXPECT_EQ(by_speed.camera_doubt(), 0.0);
+}
+
 TEST(Scale, FarLandmarksThatATurnMayHaveShiftedYieldToTheRoad) {
   StepInTime next = step(StepStatus::kOk, 10.1, 1.0);
   next.direct = MeasuredTravel{0.95, 0.02, LengthSource::kRoadImage, true};
@@ -391,6 +459,17 @@ TEST(Scale, RefusesTheLengthOfAFlyingCar) {
   EXPECT_EQ(length.source, LengthSource::kHeld);
   EXPECT_EQ(length.length, 1.2);
   EXPECT_EQ(length.ground_acs, 50U);
+}
+
+TEST(Scale, SaysWhenALengthIsThatOfAFlyingCar) {
+  Scale scale = driving();
+  const StepLength length =
+      scale.length_of(step(StepStatus::kOk, 10.1, 1.0), {{9.0, 0.01, LengthSource::kRoad, 50}});
+  EXPECT_TRUE(length.too_fast);
+  EXPECT_FALSE(
+      scale.length_of(step(StepStatus::kOk, 10.2, 1.0), {{3.0, 0.01, LengthSource::kRoad, 50}})
+          .too_fast)
+      << "inertia refuses it, but cars drive as fast";
 }
 
 TEST(Scale, HoldsTheLastMetricSpeedForAWhile) {

@@ -243,14 +243,38 @@ TEST(SetupCheck, TakesMetresFromAnImpossibleCalibration) {
   length.length = 1.0;
   length.sigma = 0.01;
   length.metric = true;
-  EXPECT_FALSE(setup.checked(length).metric);
-  EXPECT_EQ(setup.checked(length).length, 1.0);
-  EXPECT_EQ(setup.checked(length).sigma, 0.0);
+  EXPECT_FALSE(setup.checked_after(length).metric);
+  EXPECT_EQ(setup.checked_after(length).length, 1.0);
+  EXPECT_EQ(setup.checked_after(length).sigma, 0.0);
   ScaleCorrection correction;
   correction.metric = true;
   EXPECT_FALSE(setup.checked(correction).metric);
   setup.start(frame_of({}));
-  EXPECT_TRUE(setup.checked(length).metric);
+  EXPECT_TRUE(setup.checked_after(length).metric);
+}
+
+TEST(SetupCheck, AccusesStampsOrHeightWhenNoCarDrivesAsFast) {
+  StepLength right, flying;
+  right.length = 1.0;
+  right.sigma = 0.01;
+  right.metric = true;
+  flying.refused = flying.too_fast = true;
+  const TwoView seen = seen_by({}, {1.0, 0.0, 0.0});
+  const auto drive = [&](int steps, int flies_every) {
+    SetupCheck setup;
+    setup.start(frame_of({}));
+    for (int i = 1; i <= steps; ++i) {
+      static_cast<void>(setup.checked_after(i % flies_every == 0 ? flying : right));
+      setup.follow(seen, levelling({}));
+    }
+    return setup;
+  };
+  const SetupCheck wrong = drive(100, 2);
+  ASSERT_EQ(wrong.faults().size(), 1U);
+  EXPECT_NE(wrong.faults()[0].find("250 km/h"), std::string::npos);
+  EXPECT_NE(wrong.faults()[0].find("--camera-height"), std::string::npos);
+  EXPECT_TRUE(drive(400, 20).metric_allowed()) << "now and then a length is wrong";
+  EXPECT_TRUE(drive(8, 2).metric_allowed()) << "too early";
 }
 
 }  // namespace

@@ -1,5 +1,6 @@
 #include "uncertainty/step_covariance.h"
 
+#include "oneac/frontend/step_metres.h"
 #include "oneac/frontend/trajectory_uncertainty.h"
 #include "oneac/geometry/tangent_basis.h"
 
@@ -53,6 +54,34 @@ std::vector<FrameResult> straight_drive(std::size_t steps, const StepResult& ste
     frames.push_back(next);
   }
   return frames;
+}
+
+TEST(DoubtMetres, StatesTheDoubtInStepsBeforeItWasTold) {
+  StepResult step = metric_step({0.1, 0.05, -1.4}, 0.03);
+  const Matrix6 before = step.covariance;
+  doubt_metres(step, 0.04, 0.06);
+  EXPECT_TRUE(step.metric);
+  EXPECT_NEAR(step.length_sigma, 0.05, 1e-12);
+  EXPECT_NEAR(*sigma_of_length(step), 0.05 * step.pose.t.norm(), 1e-9);
+  doubt_metres(step, 0.04, 0.06);
+  EXPECT_NEAR(step.length_sigma, 0.05, 1e-12) << "once";
+  doubt_metres(step, 0.0, 0.06);
+  EXPECT_NEAR(step.length_sigma, 0.03, 1e-12);
+  EXPECT_TRUE(step.covariance.isApprox(before, 1e-9)) << "taken back";
+}
+
+TEST(DoubtMetres, ALengthThatIsTooUnsureIsNotMetric) {
+  StepResult step = metric_step({0.0, 0.0, -1.4}, 0.03);
+  doubt_metres(step, 0.07, 0.06);
+  EXPECT_FALSE(step.metric);
+  EXPECT_NEAR(step.pose.t.norm(), 1.0, 1e-12);
+  EXPECT_EQ(step.length_sigma, 0.0);
+  EXPECT_GT(smallest_eigenvalue(step.covariance), -1e-12);
+  StepResult rest;
+  rest.status = StepStatus::kNoMotion;
+  rest.metric = true;
+  doubt_metres(rest, 0.07, 0.06);
+  EXPECT_TRUE(rest.metric) << "zero is zero in any unit";
 }
 
 TEST(StepCovariance, AddsTheLengthAlongTheWay) {

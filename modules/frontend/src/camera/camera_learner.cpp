@@ -1,5 +1,7 @@
 #include "camera/camera_learner.h"
 
+#include "camera/focal_doubt.h"
+
 #include "oneac/base/number_text.h"
 #include "oneac/geometry/angles.h"
 
@@ -73,6 +75,9 @@ bool CameraLearner::measure(const CalibrationWindow& window) {
   belief_.focal_sigma = estimate.sigma(kFocal);
   belief_.drive_sigma = estimate.drive_sigma[kFocal];
   belief_.bends = estimate.windows;
+  if (belief_.bends >= kFewestBends) {
+    belief_.doubt = focal_doubt(change_[kFocal], belief_.focal_sigma);
+  }
   belief_.history.push_back({index_, time_s_, belief_.focal_px, belief_.focal_sigma});
   return true;
 }

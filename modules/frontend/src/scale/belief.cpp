@@ -19,6 +19,8 @@ constexpr double kSureWay = 0.01;
 constexpr double kFirstStep = 0.05;
 // A camera at rest: the road moves by less than this [σ], and less than this [m].
 constexpr double kMoves = 2.5;
+// [σ] up to which two lengths of one step are the same.
+constexpr double kAgree = 2.0;
 constexpr double kStillness = 0.02;
 // [m or heights] a rest that is known no better than this says nothing in metres.
 constexpr double kSureRest = 0.05;
@@ -102,6 +104,7 @@ StepLength Scale::decided(const StepInTime& step,
   StepLength goes_on = held(step);
   goes_on.conflict = result.conflict;
   goes_on.refused = result.refused;
+  goes_on.too_fast = result.too_fast;
   if (!told.empty()) goes_on.ground_acs = told.front().ground_acs;
   return goes_on;
 }
@@ -109,7 +112,7 @@ StepLength Scale::decided(const StepInTime& step,
 /// Of those who tell metres what inertia allows, together; not metric when nobody is believed.
 StepLength Scale::chosen(const std::vector<StepLength>& told, const StepInTime& step) const {
   const auto expected = inertia_.expect(step.begin_s, step.end_s);
-  std::vector<StepLength> believed;
+  std::vector<StepLength> believed, refused_by_inertia;
   StepLength refused;
   for (const StepLength& length : told) {
     if (!length.metric) continue;
@@ -117,19 +120,39 @@ StepLength Scale::chosen(const std::vector<StepLength>& told, const StepInTime& 
     if (slow && (!expected || expected->allows(length.length, length.sigma_m))) {
       believed.push_back(length);
     } else {
+      if (slow) refused_by_inertia.push_back(length);
       refused.refused = true;
+      refused.too_fast = refused.too_fast || !slow;
       refused.conflict = refused.conflict || length.source == LengthSource::kMap;
     }
   }
   StepLength result = refused;
   if (believed.size() == 1) result = believed.front();
-  if (believed.size() > 1) result = together(believed[0], believed[1], expected);
+  if (believed.size() > 1) {
+    result = together(believed[0], believed[1], stamps_are_wrong() ? std::nullopt : expected);
+  }
   result.refused = refused.refused;
+  result.too_fast = refused.too_fast;
   result.conflict = result.conflict || refused.conflict;
+  if (const auto agreed = against_inertia(refused_by_inertia)) return *agreed;
   if (!result.metric) return result;
   if (expected) result = steadied(result, *expected);
   result.metric = result.sigma <= allowed_sigma(result.length);
   return result;
+}
+
+/// Map and road, who do not know each other, say the same of a step that inertia does not allow:
+/// then it is its stamps that are wrong, as where images were dropped under a fixed rate.
+std::optional<StepLength> Scale::against_inertia(const std::vector<StepLength>& refused) const {
+  if (refused.size() < 2) return std::nullopt;
+  const StepLength &a = refused[0], &b = refused[1];
+  const bool both_go = std::min(a.length, b.length) > kStillness;
+  const bool sure = std::max(a.sigma, b.sigma) <= max_uncertainty_;
+  const bool agree = std::abs(a.length - b.length) <= kAgree * std::hypot(a.sigma_m, b.sigma_m);
+  if (!both_go || !sure || !agree) return std::nullopt;
+  StepLength agreed = mean_of(a, b);
+  agreed.refused = agreed.beside_stamps = true;
+  return agreed;
 }
 
 /// Two of one step: a sure first one, else their mean, or when they contradict each other the less
@@ -156,7 +179,7 @@ StepLength Scale::together(const StepLength& a, const StepLength& b,
 
 /// An unsure length, helped by inertia: far landmarks know little of a short step.
 StepLength Scale::steadied(const StepLength& told, const ExpectedLength& expected) const {
-  if (told.sigma <= kSure * allowed_sigma(told.length)) return told;
+  if (told.sigma <= kSure * allowed_sigma(told.length) || stamps_are_wrong()) return told;
   StepLength inertia;
   inertia.length = expected.length;
   inertia.sigma_m = expected.sigma;
@@ -182,7 +205,7 @@ StepLength Scale::held(const StepInTime& step) const {
   const double sigma = expected->sigma / expected->length;
   // A step that the images did not carry has no rotation of its own either.
   const bool seen = step.status == StepStatus::kOk;
-  result.metric = seen && contradicted_ == 0 && sigma <= max_uncertainty_;
+  result.metric = seen && contradicted_ == 0 && sigma <= max_uncertainty_ && !stamps_are_wrong();
   if (!result.metric) return result;
   result.sigma = sigma;
   result.sigma_m = expected->sigma;

@@ -57,6 +57,9 @@ struct StepLength {
   LengthSource source = LengthSource::kNone;  ///< whose word it is
   bool conflict = false;                      ///< road and map contradict each other
   bool refused = false;                       ///< somebody told metres that inertia does not allow
+  bool too_fast = false;                      ///< somebody told more than any car drives
+  bool beside_stamps = false;                 ///< two agree on it, whatever inertia says
+  double camera_doubt = 0.0;                  ///< relative 1σ, part of sigma, by the camera
   std::optional<MeasuredTravel> without_inertia;  ///< the measurement alone, where inertia helped
   std::size_t landmarks = 0;                      ///< that carried it
   std::size_t ground_acs = 0;                     ///< on the road, where it was asked

@@ -7,6 +7,7 @@
 
 #include <Eigen/Geometry>
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
@@ -89,13 +90,18 @@ std::optional<MeasuredTravel> Scale::measure_directly(
   const bool in_use = metres_ == LengthSource::kRoad && camera_height() > 0.0;
   const StepLength by_map = carried ? stated(*carried) : StepLength{};
   const bool unsure = !by_map.metric || by_map.sigma > kSure * allowed_sigma(by_map.length);
-  const bool needed = unsure || needs_road_image_ || conflicts_ > 0;
+  const auto expected = inertia_.expect(step.begin_s, step.end_s);
+  // Inertia is judged by what does not know it.
+  const bool surprises =
+      by_map.metric && expected && !expected->allows(by_map.length, by_map.sigma_m);
+  const bool needed =
+      unsure || surprises || needs_road_image_ || conflicts_ > 0 || stamps_are_wrong();
   const bool due = ++unchecked_ >= kCheckEvery;
   if (!resting && !(in_use && (needed || due))) return std::nullopt;
   if (seen.status == StepStatus::kPredicted) return std::nullopt;
   unchecked_ = 0;
   return road_travel(road, seen,
-                     {first, heading, expected(step.begin_s, step.end_s), step.seconds(),
+                     {first, heading, surprises ? std::nullopt : expected, step.seconds(),
                       in_use ? camera_height() : 0.0});
 }
 
@@ -108,7 +114,20 @@ StepLength Scale::length_of(const StepInTime& step,
   }
   speeds_.add_step(step.end_s, result.length);
   remember(step, result);
-  return doubted_ ? without_metres(result) : result;
+  return doubted_ ? without_metres(result) : with_doubt(result);
+}
+
+/// With what the camera adds to its σ: all lengths share it, so that nothing that compares two of
+/// them has to know it.
+StepLength Scale::with_doubt(StepLength length) const {
+  const double doubt = camera_doubt();
+  if (!length.metric || !(length.length > 0.0) || !(doubt > 0.0)) return length;
+  const double bound = std::max(max_uncertainty_, length.sigma);
+  length.sigma = std::hypot(length.sigma, doubt);
+  length.sigma_m = std::hypot(length.sigma_m, doubt * length.length);
+  length.camera_doubt = doubt;
+  const bool sure = doubt <= max_uncertainty_ && length.sigma <= bound;
+  return sure ? length : without_metres(length);
 }
 
 void Scale::Carried::add(double length, double relative_sigma) {
@@ -128,26 +147,26 @@ double Scale::Carried::variance() const {
 
 void Scale::remember(const StepInTime& step, const StepLength& length) {
   inertia_.tick(step.begin_s, step.end_s);
+  if (length.beside_stamps) ++beside_stamps_;
   if (step.status == StepStatus::kOk) moved_ = true;
   const bool measured = length.metric && length.source != LengthSource::kHeld;
   doubted_ = !measured && (doubted_ || length.refused);
   if (step.direct) conflicts_ = length.conflict ? conflicts_ + 1 : 0;
-  if (length.source != LengthSource::kHeld || length.metric)
-    contradicted_ = 0;
-  else if (length.refused && ++contradicted_ >= kPatience)
-    inertia_.forget();
+  weigh_inertia(length);
   if (measured && length.without_inertia) {
     const MeasuredTravel& told = *length.without_inertia;
     inertia_.tell(step.begin_s, step.end_s, told.length, told.sigma);
-  } else if (measured) {
+  } else if (measured && !length.beside_stamps) {
     inertia_.tell(step.begin_s, step.end_s, length.length, length.sigma_m);
   }
-  if (length.metric && step.seconds() > 0.0) {
+  if (length.metric && !length.beside_stamps && step.seconds() > 0.0) {
     last_metric_speed_ = length.length / step.seconds();
     last_metric_time_ = step.end_s;
   }
   const StepLength direct = by_itself(step);
-  const bool own = length.metric && length.source != LengthSource::kMap;
+  // What inertia tells is no measurement of the map: it may rest on stamps that are wrong.
+  const bool own =
+      length.metric && length.source != LengthSource::kMap && length.source != LengthSource::kHeld;
   // Of a rest the noise is no way: it would add up.
   const bool rests = length.metric && length.source == LengthSource::kStanding;
   const StepLength& told = direct.metric && !rests ? direct : length;
@@ -155,6 +174,16 @@ void Scale::remember(const StepInTime& step, const StepLength& length) {
   interval_.way += told.length;
   interval_.used += length.length;
   interval_.sigma_m += told.sigma_m;
+}
+
+/// Inertia that nobody agrees with for too long had a wrong speed.
+void Scale::weigh_inertia(const StepLength& length) {
+  const bool agrees = length.source != LengthSource::kHeld || length.metric;
+  if (agrees && !length.beside_stamps) {
+    contradicted_ = 0;
+  } else if (length.refused && ++contradicted_ >= kPatience) {
+    inertia_.forget();
+  }
 }
 
 ScaleCorrection Scale::correct(const MapLengths& map, const Levelling& first, double focal_px) {
@@ -170,8 +199,9 @@ ScaleCorrection Scale::correct(const MapLengths& map, const Levelling& first, do
   needs_road_image_ = metres_ == LengthSource::kRoad && correction.ground_acs == 0;
   interval_ = {};
   speeds_.rescale(correction.factor);
-  correction.metric = filter_.is_metric();
-  correction.sigma = filter_.uncertainty();
+  correction.sigma = std::hypot(filter_.uncertainty(), camera_doubt());
+  const bool sure = camera_doubt() == 0.0 || correction.sigma <= max_uncertainty_;
+  correction.metric = filter_.is_metric() && sure;
   return correction;
 }
 

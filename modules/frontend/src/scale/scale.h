@@ -43,6 +43,9 @@ class Scale {
   void start(const CameraFrame& first);
   /// Speed over ground in time order, for the source "gps".
   void add_speed(const SpeedReading& told);
+  /// Relative 1σ that every length by images has beside its own, from here on: the camera's focal
+  /// length is in doubt. Lengths by speeds do not know it.
+  void doubt_camera(double relative_sigma) { camera_doubt_ = relative_sigma; }
   /// The map began anew at this time: its scale has to be measured again.
   void restart(double time_s);
 
@@ -87,9 +90,17 @@ class Scale {
   [[nodiscard]] bool is_metric() const { return filter_.is_metric(); }
   /// Relative 1σ of the map's lengths; infinite while nobody has measured them.
   [[nodiscard]] double uncertainty() const { return filter_.uncertainty(); }
+  /// Stamps are not those of the images: steps that map and road agree on would need accelerations
+  /// that no tyre gives, again and again. Inertia tells no metres then.
+  [[nodiscard]] bool stamps_are_wrong() const { return beside_stamps_ >= kWrongStamps; }
+  /// Relative 1σ of every length, in metres by images, that the camera's doubt adds.
+  [[nodiscard]] double camera_doubt() const {
+    return metres_ == LengthSource::kSpeed ? 0.0 : camera_doubt_;
+  }
 
  private:
-  static constexpr int kPatience = 5;  ///< steps in a row
+  static constexpr int kPatience = 5;     ///< steps in a row
+  static constexpr int kWrongStamps = 3;  ///< steps of a drive: one and two may be a gap
   /// [σ] Two lengths of one step that are farther apart contradict each other.
   static constexpr double kContradiction = 4.0;
   /// [-] Share of the bound on a metric length up to which it needs no help.
@@ -126,12 +137,16 @@ class Scale {
                                    const std::vector<LengthMeasurement>& measured) const;
   [[nodiscard]] StepLength chosen(const std::vector<StepLength>& told,
                                   const StepInTime& step) const;
+  [[nodiscard]] std::optional<StepLength> against_inertia(
+      const std::vector<StepLength>& refused) const;
+  [[nodiscard]] StepLength with_doubt(StepLength length) const;
   [[nodiscard]] StepLength together(const StepLength& a, const StepLength& b,
                                     const std::optional<ExpectedLength>& expected) const;
   [[nodiscard]] StepLength steadied(const StepLength& told, const ExpectedLength& expected) const;
   [[nodiscard]] StepLength held(const StepInTime& step) const;
   [[nodiscard]] StepLength at_rest(const StepInTime& step) const;
   [[nodiscard]] StepLength by_itself(const StepInTime& step) const;
+  void weigh_inertia(const StepLength& length);
   void remember(const StepInTime& step, const StepLength& length);
   [[nodiscard]] std::optional<ScaleMeasurement> by_interval(const KeyframePair& pair) const;
   [[nodiscard]] StepLength stated(const LengthMeasurement& measured) const;
@@ -163,6 +178,8 @@ class Scale {
   int unchecked_ = 0;             ///< steps since the road's grey values were asked
   int conflicts_ = 0;             ///< steps in a row in which road and map disagreed
   int contradicted_ = 0;          ///< steps in a row in which nobody agreed with inertia
+  int beside_stamps_ = 0;  ///< steps in which two others agreed on what inertia does not allow
+  double camera_doubt_ = 0.0;
   bool doubted_ = false;  ///< somebody told metres that inertia does not allow, and nobody since
 };
 

@@ -41,6 +41,9 @@ constexpr double kNearer = 1.5;
 // [heights] to each side of the point below the camera, and share of a road's points beyond: two
 // thirds of a lane's half. A wall reaches down to the ground only: less, unless it is within 2 m.
 constexpr double kToEachSide = 0.8, kShareAtEachSide = 0.1;
+// Steps, and their share, that would have been faster than any car: one may be a wrong measurement.
+constexpr std::size_t kFewestTooFast = 10;
+constexpr double kMostTooFast = 0.1;
 // [rad] of a camera's axis from the vehicle's: beyond, travel does not show its pitch.
 constexpr double kLooksAside = 45.0 * kDegree;
 // [rad] a pitch that nobody told is zero.
@@ -156,7 +159,9 @@ void SetupCheck::start(const CameraFrame& first) {
   nose_ = R_level_cam * R_vehicle_cam.transpose() * Eigen::Vector3d::UnitX();
 }
 
-StepLength SetupCheck::checked(StepLength length) const {
+StepLength SetupCheck::checked_after(StepLength length) {
+  if (length.metric || length.refused) ++speeds_.count;
+  if (length.too_fast) ++speeds_.too_fast;
   if (metric_allowed()) return length;
   length.metric = false;
   length.sigma = 0.0;
@@ -224,7 +229,7 @@ std::vector<std::string> SetupCheck::faults_of_drive() const {
   std::vector<std::string> faults;
   const auto swing = fault_of_swing();
   const auto heading = swing ? std::nullopt : fault_of_heading();
-  for (const auto& fault : {swing, heading, fault_of_road(), fault_of_pitch()}) {
+  for (const auto& fault : {swing, heading, fault_of_road(), fault_of_pitch(), fault_of_speed()}) {
     if (fault) faults.push_back(*fault);
   }
   return faults;
@@ -246,6 +251,16 @@ std::optional<std::string> SetupCheck::fault_of_heading() const {
   return "the camera travels " + fixed_text(angle / kDegree, 0) +
          "° off the direction that its mount calls ahead, so nothing is in metres; say how it is "
          "mounted with --mount-yaw, --mount-roll and --mount-pitch, or --mount-convention";
+}
+
+std::optional<std::string> SetupCheck::fault_of_speed() const {
+  if (speeds_.too_fast < kFewestTooFast) return std::nullopt;
+  if (share(speeds_.too_fast, speeds_.count) < kMostTooFast) return std::nullopt;
+  return "the lengths of " + std::to_string(speeds_.too_fast) + " of " +
+         std::to_string(speeds_.count) +
+         " steps are speeds above 250 km/h, so nothing is in metres; give the stamps of these "
+         "images, "
+         "or the camera's height (--camera-height)";
 }
 
 std::optional<std::string> SetupCheck::fault_of_road() const {

@@ -22,9 +22,9 @@ namespace oneac {
 /// From the first image: camera_faults(). From the whole drive up to now: the direction of travel
 /// lies where the mount says that the vehicle's nose is; the road lies below the camera and not
 /// above it or to one side; travel does not swing from side to side with every image, as between
-/// two cameras; the pitch of a camera that looks aside was told. A drive that once showed its road
-/// below, again and again, is not accused in a tunnel: what is said can be taken back, and what
-/// stands at the end holds for the whole drive.
+/// two cameras; the pitch of a camera that looks aside was told; lengths are no speeds that no car
+/// drives. A drive that once showed its road below, again and again, is not accused in a tunnel:
+/// what is said can be taken back, and what stands at the end holds for the whole drive.
 ///
 /// Walls, hedges, barriers and ceilings are planes along the way, too. A road differs from them: it
 /// is nearer than all others, and reaches to both sides of the point below the camera. A wall
@@ -42,8 +42,8 @@ class SetupCheck {
   [[nodiscard]] bool metric_allowed() const { return faults_.empty(); }
   /// What speaks against the set-up, one line each with its cure.
   [[nodiscard]] const std::vector<std::string>& faults() const { return faults_; }
-  /// The length, in metres only where the set-up allows it.
-  [[nodiscard]] StepLength checked(StepLength length) const;
+  /// The length of the newest step, in metres only where the set-up, this step included, allows it.
+  [[nodiscard]] StepLength checked_after(StepLength length);
   [[nodiscard]] ScaleCorrection checked(ScaleCorrection correction) const;
 
  private:
@@ -59,6 +59,11 @@ class SetupCheck {
     std::array<std::size_t, 4> road{};
   };
 
+  /// Of all steps whose length somebody told.
+  struct Speeds {
+    std::size_t count = 0, too_fast = 0;
+  };
+
   void remember(const TwoView& seen, const Eigen::Matrix3d& R_level_cam);
   void look_for_road(const TwoView& seen, const Eigen::Matrix3d& R_level_cam);
   [[nodiscard]] std::vector<std::string> faults_of_drive() const;
@@ -66,6 +71,7 @@ class SetupCheck {
   [[nodiscard]] std::optional<std::string> fault_of_heading() const;
   [[nodiscard]] std::optional<std::string> fault_of_road() const;
   [[nodiscard]] std::optional<std::string> fault_of_pitch() const;
+  [[nodiscard]] std::optional<std::string> fault_of_speed() const;
 
   void gather();
 
@@ -76,6 +82,7 @@ class SetupCheck {
   MountAngles believed_;
   Eigen::Vector3d nose_ = Eigen::Vector3d::UnitZ();  ///< vehicle's X in the levelled camera
   bool pitch_is_missing_ = false;                    ///< of a camera that looks aside
+  Speeds speeds_;
   Travels travels_;
   Looks looks_;
 };

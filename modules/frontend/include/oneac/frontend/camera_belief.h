@@ -23,6 +23,7 @@ struct CameraBelief {
   double focal_sigma = 0.0;  ///< relative 1σ of it
   double drive_sigma = 0.0;  ///< the same by the drive alone; above 1: it cannot know
   std::size_t bends = 0;     ///< windows with a bend that were measured
+  double doubt = 0.0;        ///< relative 1σ that lengths by the given one have by what bends say
   std::vector<FocalMoment> history;
 
   /// The drive has made the focal length surer than it was given.

@@ -31,6 +31,7 @@ struct StepResult {
   bool metric = false;  ///< t is in metres: the scale is known well enough, or the car stood
   double length = 0.0;  ///< [m, or units while the drive has no scale] step used in the trajectory
   double length_sigma = 0.0;  ///< relative 1σ of a metric length
+  double camera_doubt = 0.0;  ///< of it, the part by a focal length that bends contradict
   /// Of (w, t) with t as in `pose`, in the second camera's frame: R ← exp([w]×) R, t ← t + v [rad²,
   /// m² where metric]; without metres it says nothing along t. Symmetric, positive semidefinite.
   Eigen::Matrix<double, 6, 6> covariance = Eigen::Matrix<double, 6, 6>::Zero();

@@ -107,6 +107,13 @@ class FrontEnd : public mrpt::system::COutputLogger {
   /// What speaks against calibration and mount as they are believed, one line each with its cure;
   /// while there is something, no step is metric.
   [[nodiscard]] const std::vector<std::string>& setup_faults() const;
+  /// Relative 1σ that lengths in metres by images have for what bends say against the given focal
+  /// length; part of StepResult::length_sigma from there on. doubt_metres() states it in steps
+  /// before.
+  [[nodiscard]] double length_doubt() const;
+  /// Lengths that landmarks and road agree on would need accelerations that no car has, again and
+  /// again: the stamps are not those of the images.
+  [[nodiscard]] bool stamps_are_wrong() const;
   /// Relative 1σ of the lengths of the map; infinite while nothing has measured them.
   [[nodiscard]] double scale_uncertainty() const;
 
