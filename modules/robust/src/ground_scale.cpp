@@ -101,6 +101,7 @@ struct RoadPlane {
   double variance = 0.0;         ///< of d by the assumed noise
   double variance_factor = 1.0;  ///< how much more the residuals scatter
   double beside = 0.0;           ///< share of the support that the car does not drive on
+  double reach = 0.0;            ///< root mean square distance ahead of the support
   std::size_t support = 0;
 
   [[nodiscard]] double height_at(const Eigen::Vector3d& X) const {
@@ -121,7 +122,7 @@ RoadPlane fit_plane(const std::vector<Candidate>& candidates, double height,
     Eigen::Matrix3d H = prior.asDiagonal();
     Eigen::Vector3d g = Eigen::Vector3d::Zero();
     double chi2 = 0.0;
-    double weights = 0.0, beside = 0.0;
+    double weights = 0.0, beside = 0.0, ahead = 0.0;
     plane.support = 0;
     for (const Candidate& c : candidates) {
       // Y, X, Z all scale with the depth, so the error of the residual is that of the depth times
@@ -135,6 +136,7 @@ RoadPlane fit_plane(const std::vector<Candidate>& candidates, double height,
       chi2 += robust * z * z;
       weights += robust;
       if (c.beside) beside += robust;
+      ahead += robust * squared(c.X.z());
       if (std::abs(z) < kPlaneCut && c.weight > 0.3) ++plane.support;
     }
     factor.compute(H);
@@ -145,6 +147,7 @@ RoadPlane fit_plane(const std::vector<Candidate>& candidates, double height,
     plane.b = solution(2);
     plane.variance_factor = weights > 0.0 ? std::max(chi2 / weights, 0.1) : 1.0;
     plane.beside = weights > 0.0 ? beside / weights : 0.0;
+    plane.reach = weights > 0.0 ? std::sqrt(ahead / weights) : 0.0;
   }
   const Eigen::Matrix3d covariance = factor.solve(Eigen::Matrix3d::Identity());
   plane.variance = covariance(0, 0);
@@ -173,7 +176,8 @@ std::optional<GroundScale> ground_scale(AcSpan acs, const std::vector<bool>& inl
   const double uncertainty = std::sqrt(plane.variance_factor * plane.variance) / plane.d;
   if (!(uncertainty < options.max_uncertainty)) return std::nullopt;
   return GroundScale{T_2_1.t.norm() / distance,
-                     std::hypot(uncertainty, DrivenPath::kKerb * plane.beside), plane.support};
+                     std::hypot(uncertainty, DrivenPath::kKerb * plane.beside),
+                     plane.reach / distance, plane.support};
 }
 
 }  // namespace oneac

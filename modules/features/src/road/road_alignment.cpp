@@ -115,6 +115,16 @@ double share_beside(const RoadFit& fit, const RoadGrid& grid, const DrivenPath& 
   return weights > 0.0 ? beside / weights : 0.0;
 }
 
+/// Root mean square distance of the blocks that tell the length. [heights]
+double reach_of(const RoadFit& fit, const RoadGrid& grid) {
+  double evidence = 0.0, ahead = 0.0;
+  for (std::size_t i = 0; i < kBlocks; ++i) {
+    evidence += fit.evidence[i];
+    ahead += fit.evidence[i] * grid.distance[i] * grid.distance[i];
+  }
+  return evidence > 0.0 ? std::sqrt(ahead / evidence) : 0.0;
+}
+
 void take_fit(const Problem& problem, const RoadFit& fit, double beside,
               const RoadAlignmentOptions& options, RoadAlignment& result) {
   result.length = fit.motion.length;
@@ -218,6 +228,7 @@ RoadAlignment align(const Problem& problem, const RoadStep& step,
   result.status = judge(candidates, range, options, result);
   if (result.status != RoadStatus::kMeasured) return result;
   const RoadFit& fit = candidates.front().fit;
+  result.reach = reach_of(fit, grid);
   take_fit(problem, fit, share_beside(fit, grid, expected_path(step), options.half_width), options,
            result);
   return result;

@@ -61,7 +61,7 @@ void weigh_blocks(double redundant, double uneven, const RoadAlignmentOptions& o
   for (std::size_t i = 0; i < kBlocks; ++i) {
     const BlockEquations& block = fit.equations[i];
     const double precision = precision_of(block, redundant, uneven);
-    fit.weight[i] = 0.0;
+    fit.weight[i] = fit.evidence[i] = 0.0;
     if (!(precision > 0.0) || block.rho < options.min_correlation) continue;
     const double information = precision * block.H(0, 0);
     // What the block wants beyond the step that all of them take.
@@ -69,6 +69,7 @@ void weigh_blocks(double redundant, double uneven, const RoadAlignmentOptions& o
     fit.deviation[i] = -rest(0) / block.H(0, 0) * std::sqrt(information);
     const double scaled = fit.deviation[i] / kCauchy;
     fit.weight[i] = 1.0 / (1.0 + scaled * scaled);
+    fit.evidence[i] = fit.weight[i] * information;
     evidence += information;
     if (std::abs(fit.deviation[i]) > kAgrees) continue;
     agreeing += information;

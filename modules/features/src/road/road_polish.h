@@ -23,6 +23,7 @@ struct RoadFit {
   RoadMatrix covariance = RoadMatrix::Zero();
   RoadEquations equations;
   std::array<double, kBlocks> weight{};     ///< [0, 1] agreement of a block
+  std::array<double, kBlocks> evidence{};   ///< [1/heights²] of its length, times its weight
   std::array<double, kBlocks> deviation{};  ///< [σ] of its own length from that of all
   int blocks = 0;                           ///< that count and agree
   double agreeing = 0.0;                    ///< [-] share of the evidence of blocks that agree

@@ -28,6 +28,7 @@ struct LengthMeasurement {
   double sigma = 0.0;   ///< relative 1σ
   LengthSource source = LengthSource::kNone;
   std::size_t support = 0;  ///< landmarks, or correspondences on the road
+  double reach = 0.0;       ///< [heights] how far ahead the road is that tells it
   double turn_sigma = 0.0;  ///< [m or map] 1σ beside it, by the turn: of this step alone
 };
 
@@ -38,6 +39,7 @@ struct MeasuredTravel {
   double sigma = 0.0;   ///< 1σ, in the same unit
   LengthSource source = LengthSource::kRoadImage;
   bool in_metres = false;
+  double reach = 0.0;  ///< [heights] how far ahead the road is that tells it
 };
 
 /// True length over length in the map.
@@ -46,6 +48,7 @@ struct ScaleMeasurement {
   double sigma = 0.0;  ///< relative 1σ
   LengthSource source = LengthSource::kNone;
   std::size_t support = 0;
+  double reach = 0.0;  ///< [heights] how far ahead the road is that tells it
 };
 
 /// What a step's length comes to.

@@ -31,7 +31,7 @@ std::optional<LengthMeasurement> RoadLength::measure(AcSpan acs, const std::vect
                                  widened(options_, first));
   if (!road) return std::nullopt;
   return LengthMeasurement{road->baseline * camera_height_, road->uncertainty, LengthSource::kRoad,
-                           road->support};
+                           road->support, road->reach};
 }
 
 }  // namespace oneac

@@ -94,7 +94,7 @@ std::optional<MeasuredTravel> road_travel(const RoadPair& road, const TwoView& s
   if (looks_aside(step) && aligned.length > reach) return std::nullopt;
   const double unit = prior.camera_height > 0.0 ? prior.camera_height : 1.0;
   return MeasuredTravel{aligned.length * unit, sigma * unit, LengthSource::kRoadImage,
-                        prior.camera_height > 0.0};
+                        prior.camera_height > 0.0, aligned.reach};
 }
 
 }  // namespace oneac

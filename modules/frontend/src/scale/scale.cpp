@@ -48,7 +48,8 @@ Scale::Scale(const FrontEndOptions& options)
       least_depths_(static_cast<std::size_t>(options.window.min_carry)),
       filter_(options.scale),
       road_(options.ground_scale, options.consensus.threshold_px),
-      inertia_(options.scale, options.max_hold) {}
+      inertia_(options.scale, options.max_hold),
+      road_uncertainty_(options.scale.road_uncertainty) {}
 
 void Scale::start(const CameraFrame& first) {
   speeds_.restart(first.time_s);
@@ -113,19 +114,36 @@ StepLength Scale::length_of(const StepInTime& step,
     carried_.add(told.length, told.sigma);
   }
   speeds_.add_step(step.end_s, result.length);
+  if (result.source == LengthSource::kRoad) look_ahead(measured.front().reach);
+  if (result.source == LengthSource::kRoadImage && step.direct) look_ahead(step.direct->reach);
   remember(step, result);
   return doubted_ ? without_metres(result) : with_doubt(result);
 }
 
-/// With what the camera adds to its σ: all lengths share it, so that nothing that compares two of
-/// them has to know it.
+void Scale::look_ahead(double reach) {
+  constexpr double kMemory = 0.2;  // the share of a measurement: a map rests on some five
+  if (!(reach > 0.0) || metres_ != LengthSource::kRoad) return;
+  reach2_ += (reach2_ > 0.0 ? kMemory : 1.0) * (reach * reach - reach2_);
+}
+
+/// A crest or sag has fallen or risen by d² / 2R at the distance d, and the height above the road
+/// there is wrong by as much. `road_uncertainty` holds for the reach of usual cameras: 3 cm at 13 m
+/// are a radius of 2.6 km, twice the least that design rules allow at 50 km/h.
+double Scale::curve_doubt() const {
+  constexpr double kUsualReach = 8.0;  // [heights]
+  const double more = reach2_ / (kUsualReach * kUsualReach);
+  return road_uncertainty_ * std::sqrt(std::max(more * more - 1.0, 0.0));
+}
+
+/// With what camera and road add to its σ: all lengths share it, so that nothing that compares two
+/// of them has to know it.
 StepLength Scale::with_doubt(StepLength length) const {
-  const double doubt = camera_doubt();
+  const double doubt = std::hypot(camera_doubt(), curve_doubt());
   if (!length.metric || !(length.length > 0.0) || !(doubt > 0.0)) return length;
   const double bound = std::max(max_uncertainty_, length.sigma);
   length.sigma = std::hypot(length.sigma, doubt);
   length.sigma_m = std::hypot(length.sigma_m, doubt * length.length);
-  length.camera_doubt = doubt;
+  length.camera_doubt = camera_doubt();
   const bool sure = doubt <= max_uncertainty_ && length.sigma <= bound;
   return sure ? length : without_metres(length);
 }
@@ -173,6 +191,10 @@ void Scale::remember(const StepInTime& step, const StepLength& length) {
   if (!direct.metric && !own) interval_.untold += told.length;
   interval_.way += told.length;
   interval_.used += length.length;
+  if (direct.metric && step.direct->reach > 0.0) {
+    interval_.seen += told.length;
+    interval_.reached += step.direct->reach * step.direct->reach * told.length;
+  }
   interval_.sigma_m += told.sigma_m;
 }
 
@@ -195,12 +217,13 @@ ScaleCorrection Scale::correct(const MapLengths& map, const Levelling& first, do
     correction.factor *= filter_.correct(told.ratio, told.sigma);
     if (filter_.began_anew()) correction.share = 0.0;  // what is new says nothing of the past
     if (told.source == LengthSource::kRoad) correction.ground_acs = told.support;
+    look_ahead(told.reach);
   }
   needs_road_image_ = metres_ == LengthSource::kRoad && correction.ground_acs == 0;
   interval_ = {};
   speeds_.rescale(correction.factor);
-  correction.sigma = std::hypot(filter_.uncertainty(), camera_doubt());
-  const bool sure = camera_doubt() == 0.0 || correction.sigma <= max_uncertainty_;
+  correction.sigma = std::hypot(filter_.uncertainty(), std::hypot(camera_doubt(), curve_doubt()));
+  const bool sure = correction.sigma <= std::max(max_uncertainty_, filter_.uncertainty());
   correction.metric = filter_.is_metric() && sure;
   return correction;
 }
@@ -230,7 +253,8 @@ std::optional<ScaleMeasurement> Scale::by_road(const KeyframePair& pair, const L
   const std::vector<bool> all(pair.acs.size(), true);
   const auto road = road_.measure(pair.acs, all, pair.T_2_1, first, focal_px);
   if (!road) return std::nullopt;
-  return ScaleMeasurement{road->length / in_map, road->sigma, road->source, road->support};
+  return ScaleMeasurement{road->length / in_map, road->sigma, road->source, road->support,
+                          road->reach};
 }
 
 std::optional<ScaleMeasurement> Scale::by_interval(const KeyframePair& pair) const {
@@ -238,7 +262,8 @@ std::optional<ScaleMeasurement> Scale::by_interval(const KeyframePair& pair) con
   if (!interval_.is_told() || !(in_map > kStraight * interval_.used)) return std::nullopt;
   return ScaleMeasurement{
       interval_.way / in_map, std::max(interval_.sigma(), 1e-3),
-      metres_ == LengthSource::kStereo ? LengthSource::kStereo : LengthSource::kRoadImage, 0};
+      metres_ == LengthSource::kStereo ? LengthSource::kStereo : LengthSource::kRoadImage, 0,
+      interval_.reach()};
 }
 
 std::optional<ScaleMeasurement> Scale::by_speed() {

@@ -127,6 +127,11 @@ class Scale {
     double sigma_m = 0.0;  ///< [m] the sum of those of its steps: their errors are alike
     double untold = 0.0;   ///< [m] of it that nobody told
     double used = 0.0;     ///< as the steps were used
+    double seen = 0.0;     ///< [m] of it that road images told ...
+    double reached = 0.0;  ///< [heights² m] ... times the square of how far ahead they looked
+
+    /// [heights]
+    [[nodiscard]] double reach() const { return seen > 0.0 ? std::sqrt(reached / seen) : 0.0; }
 
     /// Somebody told as good as all of it.
     [[nodiscard]] bool is_told() const { return way > 0.0 && untold <= kMostUntold * way; }
@@ -139,6 +144,10 @@ class Scale {
                                   const StepInTime& step) const;
   [[nodiscard]] std::optional<StepLength> against_inertia(
       const std::vector<StepLength>& refused) const;
+  /// The road that tells lengths is so far ahead [heights].
+  void look_ahead(double reach);
+  /// Relative 1σ of lengths for the road's curve between the car and what is looked at.
+  [[nodiscard]] double curve_doubt() const;
   [[nodiscard]] StepLength with_doubt(StepLength length) const;
   [[nodiscard]] StepLength together(const StepLength& a, const StepLength& b,
                                     const std::optional<ExpectedLength>& expected) const;
@@ -180,7 +189,9 @@ class Scale {
   int contradicted_ = 0;          ///< steps in a row in which nobody agreed with inertia
   int beside_stamps_ = 0;  ///< steps in which two others agreed on what inertia does not allow
   double camera_doubt_ = 0.0;
-  bool doubted_ = false;  ///< somebody told metres that inertia does not allow, and nobody since
+  double road_uncertainty_;  ///< [-] 1σ of the height above the road ahead
+  double reach2_ = 0.0;      ///< [heights²] of the road that lengths rest on
+  bool doubted_ = false;     ///< somebody told metres that inertia does not allow, and nobody since
 };
 
 }  // namespace oneac

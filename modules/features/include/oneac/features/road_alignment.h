@@ -137,8 +137,9 @@ struct RoadAlignment {
   double rival = 0.0;         ///< [-] evidence of the second best length over that of the best
   double rival_length = 0.0;  ///< [heights] that length; 0: none
   double gain = 1.0;          ///< [-] second image over first, mean over the blocks
-  int blocks = 0;             ///< that agree
-  int textured = 0;           ///< blocks with texture
+  double reach = 0.0;  ///< [heights] root mean square distance ahead of what tells the length
+  int blocks = 0;      ///< that agree
+  int textured = 0;    ///< blocks with texture
 };
 
 /// Length of a step in camera heights from all of the road that two images share.

@@ -54,7 +54,8 @@ struct ScaleOptions {
   double map_drift = 0.003;        ///< [-] 1σ of the map's scale gained from keyframe to keyframe,
                                    ///< beside that of the lengths its landmarks carry
   double road_uncertainty = 0.02;  ///< [-] 1σ of the height above the road ahead: 3 cm of 1.65 m
-                                   ///< for its unevenness and the body on its springs
+                                   ///< for its unevenness and the body on its springs; more
+                                   ///< where only road farther than 8 heights is seen
   double max_uncertainty = 0.06;   ///< [-] relative 1σ of the scale that counts as metric
   double outlier_sigmas = 5.0;     ///< [σ] a measurement farther from the map's scale is not
                                    ///< believed; roads are not planes, their errors have long tails

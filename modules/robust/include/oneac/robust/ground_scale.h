@@ -51,6 +51,7 @@ struct GroundScale {
   double baseline = 0.0;     ///< |t| in camera heights
   double uncertainty = 0.0;  ///< relative 1σ of it, from the spread of the support, and from a
                              ///< kerb where a bend looks at what the car does not drive on
+  double reach = 0.0;        ///< [heights] root mean square distance ahead of the support
   std::size_t support = 0;   ///< correspondences on the ground plane
 };
 
