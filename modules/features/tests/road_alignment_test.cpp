@@ -99,6 +99,8 @@ TEST(RoadAlignment, RecoversTheLengthOfAStepInCameraHeights) {
     drive.length = length;
     const RoadAlignment result = drive.align(drive.step());
     EXPECT_EQ(result.status, RoadStatus::kMeasured) << length << " " << to_string(result.status);
+    EXPECT_GT(result.reach, RoadAlignmentOptions().nearest);
+    EXPECT_LT(result.reach, RoadAlignmentOptions().farthest);
     EXPECT_NEAR(result.length, length, 3.0 * result.sigma);
     EXPECT_NEAR(result.length, length, 0.01 * length + 0.002);
   }

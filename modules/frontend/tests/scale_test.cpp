@@ -336,6 +336,22 @@ TEST(Scale, InertiaAloneDoesNotMeasureTheMap) {
   EXPECT_GT(scale.uncertainty(), 0.1);
 }
 
+TEST(Scale, RoadThatLiesFarAheadIsTrustedLess) {
+  const auto sigma_with = [](double reach) {
+    Scale scale = started(by("height"));
+    LengthMeasurement told{1.0, 0.01, LengthSource::kRoad, 50};
+    told.reach = reach;
+    return scale.length_of(step(StepStatus::kOk, 10.0, 1.0), {told}).sigma;
+  };
+  EXPECT_EQ(sigma_with(0.0), 0.01);
+  EXPECT_EQ(sigma_with(7.0), 0.01) << "what cameras usually see";
+  EXPECT_NEAR(sigma_with(11.3), std::hypot(0.01, 0.02 * std::sqrt(3.0)), 1e-3);
+  Scale by_speed = started(by("gps"));
+  LengthMeasurement far{1.0, 0.01, LengthSource::kRoad, 50};
+  far.reach = 12.0;
+  EXPECT_EQ(by_speed.length_of(step(StepStatus::kOk, 10.0, 1.0), {far}).sigma, 0.01);
+}
+
 TEST(Scale, ACameraInDoubtMakesLengthsByImagesUnsureAndNotSpeeds) {
   Scale scale = mapped();
   const StepLength before = scale.length_of(step(StepStatus::kOk, 10.1, 1.0), {carried(1.0)});

@@ -9,6 +9,8 @@
 
 #include <cmath>
 #include <stdexcept>
+#include <utility>
+#include <vector>
 
 namespace oneac {
 namespace {
@@ -145,6 +147,31 @@ TEST(GroundScale, LetsTheRoadFallToTheSide) {
                                   kLevel, kSigma, {});
   ASSERT_TRUE(scale.has_value());
   EXPECT_NEAR(scale->baseline / T.t.norm(), 1.0, 0.018);
+}
+
+TEST(GroundScale, SaysHowFarAheadItsRoadIs) {
+  const RelativePose T = forward(0.8);
+  const auto reach = [&](double low_y, double high_y) {
+    SceneGenerator scene(38);
+    std::vector<AffineCorrespondence> acs;
+    double squares = 0.0;
+    while (acs.size() < 60) {
+      const Eigen::Vector2d x1 = scene.image_point(low_y, high_y);
+      const auto ac = correspondence_from_homography(
+          plane_induced_homography(T, {Eigen::Vector3d::UnitY(), 1.0}), x1);
+      if (!ac || std::abs(x1.x()) > 1.5 * x1.y()) continue;
+      acs.push_back(*ac);
+      squares += 1.0 / (x1.y() * x1.y());
+    }
+    const auto scale = ground_scale(acs, std::vector<bool>(acs.size(), true), with_unit_length(T),
+                                    kLevel, kSigma, {});
+    EXPECT_TRUE(scale.has_value());
+    return std::make_pair(scale ? scale->reach : 0.0, std::sqrt(squares / 60.0));
+  };
+  for (const double far_y : {0.25, 0.1}) {
+    const auto [told, truth] = reach(far_y, far_y + 0.1);
+    EXPECT_NEAR(told / truth, 1.0, 0.1) << far_y;
+  }
 }
 
 TEST(GroundScale, SaysNothingWithoutRoad) {
