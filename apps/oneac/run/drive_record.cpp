@@ -117,7 +117,7 @@ std::vector<RelativePoseRow> DriveRecord::relative_poses() const {
 }
 
 std::vector<CovarianceRow> DriveRecord::covariances() const {
-  const auto positions = position_covariances(frames, common_length_sigma);
+  const auto positions = position_covariances(frames, common_length_sigma, camera_belief.doubt);
   const bool scaled = has_scale();
   std::vector<CovarianceRow> rows;
   for (std::size_t i = 0; i < frames.size(); ++i) {

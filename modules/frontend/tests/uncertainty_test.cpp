@@ -167,6 +167,21 @@ TEST(PositionCovariances, TheRestIsForgottenAlongTheWay) {
   EXPECT_GT(last, 2.0 * 0.4);      // ... and more than if independent
 }
 
+TEST(PositionCovariances, ACameraInDoubtIsUnsureOfItsTurns) {
+  const StepResult straight = metric_step({0.0, 0.0, -1.0}, 0.03);
+  std::vector<FrameResult> bend(1);
+  const Eigen::AngleAxisd turn(0.05, Eigen::Vector3d::UnitY());
+  for (int i = 0; i < 30; ++i) {
+    FrameResult next;
+    next.T_first_cam = bend.back().T_first_cam * Eigen::Translation3d(0.0, 0.0, 1.0) * turn;
+    next.step = straight;
+    bend.push_back(next);
+  }
+  const double sure = position_covariances(bend, 0.02).back().trace();
+  EXPECT_GT(position_covariances(bend, 0.02, 0.05).back().trace(), 1.5 * sure);
+  EXPECT_EQ(position_covariances(bend, 0.02, 0.001).back().trace(), sure);
+}
+
 TEST(PositionCovariances, AgreeWithChainsOfDisturbedSteps) {
   constexpr std::size_t kSteps = 20;
   constexpr int kTrials = 4000;

@@ -35,13 +35,14 @@ Matrix6 beside_length(const StepResult& step, double length) {
 /// Errors of (θ, p) so far: independent ones, two of length, and one of all turns together.
 class Chain {
  public:
-  explicit Chain(double common_sigma) : common_sigma_(common_sigma) {}
+  Chain(double common_sigma, double camera_doubt)
+      : common_sigma_(common_sigma), turn_scale_(std::max(kTurnScale, camera_doubt)) {}
 
   void add(const StepResult& step, const Eigen::Isometry3d& before, const Eigen::Isometry3d& now) {
     const Eigen::Vector3d d = now.translation() - before.translation();
     add_turns(step, d, now.linear());
     const Eigen::AngleAxisd turn(now.linear() * before.linear().transpose());
-    turned_ += kTurnScale * turn.angle() * turn.axis();
+    turned_ += turn_scale_ * turn.angle() * turn.axis();
     by_turns_ += turned_.cross(d);
     if (step.pose.t.norm() > 0.0) add_length(step, d);
   }
@@ -73,7 +74,7 @@ class Chain {
     with_length_ += rest;
   }
 
-  double common_sigma_;
+  double common_sigma_, turn_scale_;
   Eigen::Vector3d turned_ = Eigen::Vector3d::Zero();       ///< [rad] 1σ by the scale of turns ...
   Eigen::Vector3d by_turns_ = Eigen::Vector3d::Zero();     ///< ... and of p by it
   Matrix6 turns_ = Matrix6::Zero();                        ///< of (θ, p)
@@ -94,10 +95,10 @@ std::optional<double> sigma_of_length(const StepResult& step) {
 }
 
 std::vector<Eigen::Matrix3d> position_covariances(const std::vector<FrameResult>& frames,
-                                                  double common_sigma) {
+                                                  double common_sigma, double camera_doubt) {
   std::vector<Eigen::Matrix3d> covariances;
   covariances.reserve(frames.size());
-  Chain chain(common_sigma);
+  Chain chain(common_sigma, camera_doubt);
   for (std::size_t i = 0; i < frames.size(); ++i) {
     if (i > 0 && frames[i].step) {
       chain.add(*frames[i].step, frames[i - 1].T_first_cam, frames[i].T_first_cam);

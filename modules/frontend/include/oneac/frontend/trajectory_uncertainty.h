@@ -24,7 +24,9 @@ namespace oneac {
 /// @param frames         of a whole drive, settled poses
 /// @param common_sigma   relative 1σ of length that all steps share: ScaleOptions::road_uncertainty
 ///                       for metres by height, else 0
+/// @param camera_doubt   relative 1σ of the focal length for what bends say, CameraBelief::doubt:
+///                       turns are wrong by as much, and by one per cent in any case
 [[nodiscard]] std::vector<Eigen::Matrix3d> position_covariances(
-    const std::vector<FrameResult>& frames, double common_sigma);
+    const std::vector<FrameResult>& frames, double common_sigma, double camera_doubt = 0.0);
 
 }  // namespace oneac
