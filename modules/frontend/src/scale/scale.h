@@ -41,7 +41,7 @@ class Scale {
 
   /// The first frame, whose mount may tell the camera's height.
   void start(const CameraFrame& first);
-  /// Speed over ground in time order, for the source "gps".
+  /// Speed over ground in time order, for the sources "gps" and "wheels".
   void add_speed(const SpeedReading& told);
   /// The map began anew at this time: its scale has to be measured again.
   void restart(double time_s);
@@ -153,7 +153,8 @@ class Scale {
   ScaleFilter filter_;
   RoadLength road_;
   SpeedScale speeds_;
-  Carried carried_;                 ///< since the last keyframe
+  bool one_speed_begins_;  ///< before two are known: a receiver's, which come a second apart
+  Carried carried_;        ///< since the last keyframe
   double last_metric_speed_ = 0.0;  ///< [m/s]
   double last_metric_time_ = 0.0;   ///< [s]
   Inertia inertia_;

@@ -14,6 +14,7 @@
 #include "oneac/observations/camera_reader.h"
 #include "oneac/observations/pose_watch.h"
 #include "oneac/rawlog/calibration.h"
+#include "oneac/observations/wheel_readings.h"
 
 #include <utility>
 
@@ -64,6 +65,7 @@ class RawlogSource::Impl {
   [[nodiscard]] std::optional<Sight> take(const RawlogRecord& record);
   [[nodiscard]] bool is_selected(std::size_t index) const;
   [[nodiscard]] std::optional<FrameTicket> ticket_of(const Sight& sight,
+  void take_wheels(const mrpt::obs::CObservation& observation);
                                                      const RawlogRecord& record);
   void settle_size(const StoredImage& first, const std::string& ticket_name);
   void add_right(const LogView& right, std::size_t record, Payload& payload);
@@ -83,6 +85,8 @@ class RawlogSource::Impl {
   std::size_t delivered_ = 0;
   std::optional<double> last_time_;
   bool size_settled_ = false;
+  WheelFollower wheels_;
+  std::vector<SpeedReading> wheel_speeds_;  ///< that no ticket has taken along yet
 };
 
 RawlogSource::Impl::Impl(const SourceOptions& options)
@@ -120,6 +124,7 @@ std::optional<Sight> RawlogSource::Impl::take(const RawlogRecord& record) {
     if (view.name() == chosen_.name) {
       ++report_.images_in_log;
       sight.emplace(Sight{view, std::nullopt});
+  take_wheels(*record.observation);
     } else if (sight && options_.stereo && view.side == CameraView::Side::right) {
       sight->right = view;  // it comes behind the left one
     }
@@ -132,6 +137,12 @@ bool RawlogSource::Impl::is_selected(std::size_t index) const {
 }
 
 std::optional<FrameTicket> RawlogSource::Impl::next() {
+void RawlogSource::Impl::take_wheels(const mrpt::obs::CObservation& observation) {
+  const WheelFollower::Taken taken = wheels_.take(observation);
+  if (taken.use == WheelFollower::Use::kTaken) ++report_.wheel_readings;
+  if (taken.speed) wheel_speeds_.push_back(*taken.speed);
+}
+
   if (options_.count != 0 && delivered_ == options_.count) return std::nullopt;
   while (const auto record = reader_.next()) {
     const auto sight = take(*record);
@@ -145,6 +156,7 @@ std::optional<FrameTicket> RawlogSource::Impl::next() {
   complete_report();
   return std::nullopt;
 }
+    ticket->wheels = std::exchange(wheel_speeds_, {});
 
 void RawlogSource::Impl::add_right(const LogView& right, std::size_t record, Payload& payload) {
   const double baseline = camera_.baseline(right, where(record));

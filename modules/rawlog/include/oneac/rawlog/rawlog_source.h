@@ -43,6 +43,7 @@ struct SourceReport {
   std::string names_out_of_order;   ///< one line with the cure, else ""
   VehicleReference reference;       ///< GPS and IMU seen on the way
   std::string calibration_scaled;   ///< one line: it was given for another size, else ""
+  std::size_t wheel_readings = 0;   ///< of the odometer that is followed
   bool undistorted_by_log = false;  ///< images are taken for raw, because the log's calibration is
 };
 
@@ -91,3 +92,5 @@ struct FrameTicket {
 };
 
 }  // namespace oneac
+  /// By the log's wheels, as far as they are known before the image; each goes to one ticket.
+  std::vector<SpeedReading> wheels;
