@@ -191,6 +191,10 @@ void write_drive(const DriveRecord& record, const std::filesystem::path& folder)
   write_file_atomically(folder / "relative_poses.csv",
                         format_relative_poses(record.relative_poses()));
   write_file_atomically(folder / "covariance.csv", format_covariances(record.covariances()));
+  write_file_atomically(folder / "trajectory_camera.csv",
+                        format_pose_covariances(record.camera_poses()));
+  write_file_atomically(folder / "trajectory_vehicle.csv",
+                        format_pose_covariances(record.vehicle_poses()));
   write_file_atomically(folder / "tilt.csv", format_tilts(record.frames));
   if (!record.keyframes.empty()) write_map(record, folder);
   if (!record.car_mask.empty()) {
