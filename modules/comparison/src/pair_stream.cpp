@@ -7,8 +7,9 @@ namespace oneac {
 PairExtractor::PairExtractor(const FeatureOptions& options)
     : options_(options), prepares_(make_tracker(options)) {}
 
-std::shared_ptr<const FrameFeatures> PairExtractor::prepare(const ImageView& image) const {
-  return prepares_->prepare(image);
+std::shared_ptr<const FrameFeatures> PairExtractor::prepare(const ImageView& image,
+                                                            const ImageView& mask) const {
+  return prepares_->prepare(image, mask);
 }
 
 std::vector<AffineCorrespondence> PairExtractor::correspond(
@@ -30,7 +31,7 @@ std::shared_ptr<const FrameFeatures> StreamImage::features() {
   if (!features_) {
     const CameraFrame frame = source_.load(ticket_);
     camera_ = frame.camera;
-    features_ = extractor_.prepare(frame.image.view());
+    features_ = extractor_.prepare(frame.image.view(), frame.mask.view());
   }
   return features_;
 }

@@ -75,7 +75,7 @@ PreparedFrame FrontEnd::prepare(CameraFrame frame) const {
   PreparedFrame prepared;
   {
     const StageTimer timer(prepared.features_ms);
-    prepared.features = tracker_->prepare(frame.image.view());
+    prepared.features = tracker_->prepare(frame.image.view(), frame.mask.view());
   }
   prepared.frame = std::move(frame);
   return prepared;
@@ -101,6 +101,7 @@ FrameResult FrontEnd::process(PreparedFrame prepared) {
   previous_camera_ = frame.camera;
   previous_road_ = road.second;
   prepared.frame.image = {};
+  prepared.frame.mask = {};
   prepared.frame.right = {};
   if (!started_) {
     started_ = true;

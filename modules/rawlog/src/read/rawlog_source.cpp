@@ -1,6 +1,7 @@
 #include "oneac/rawlog/rawlog_source.h"
 
 #include "images/external_images.h"
+#include "images/mask_folder.h"
 #include "images/stored_image.h"
 #include "read/camera_selection.h"
 #include "read/log_reader.h"
@@ -27,6 +28,7 @@ constexpr double kReferenceTail = 2.0;  // [s] read past the last image: two epo
 struct Payload {
   StoredImage image;
   std::optional<StoredImage> right;
+  std::filesystem::path mask;  ///< empty: none
   double baseline_m = 0.0;
   Eigen::Isometry3d T_vehicle_cam;
 };
@@ -70,11 +72,13 @@ class RawlogSource::Impl {
   void settle_size(const StoredImage& first, const std::string& ticket_name);
   void add_right(const LogView& right, std::size_t record, Payload& payload);
   [[nodiscard]] GreyImage decoded(const StoredImage& image, const std::string& ticket_name) const;
+  void add_image(const Payload& payload, const std::string& ticket_name, CameraFrame& frame) const;
   [[nodiscard]] std::string where(std::size_t record) const;
   void complete_report();
 
   SourceOptions options_;
   ExternalImages images_;
+  std::optional<MaskFolder> masks_;
   CameraCandidate chosen_;
   CameraReader camera_;
   LogReader reader_;
@@ -95,6 +99,7 @@ RawlogSource::Impl::Impl(const SourceOptions& options)
       chosen_(choose_camera(options.log, options.camera, images_)),
       camera_(chosen_, reader_options(), where(chosen_.first_record)),
       reader_(options.log) {
+  if (!options_.mask_dir.empty()) masks_.emplace(options_.mask_dir);
   report_.undistorted_by_log = camera_.undistorts() && options_.calibration.empty();
 }
 
@@ -182,6 +187,10 @@ std::optional<FrameTicket> RawlogSource::Impl::ticket_of(const Sight& sight,
   if (view.image->kind == LogImage::Kind::external) names_.add(ticket.name);
   auto payload = std::make_shared<Payload>();
   payload->image = std::move(*image);
+  if (masks_) {
+    const bool in_file = view.image->kind == LogImage::Kind::external;
+    payload->mask = masks_->mask_of(in_file ? ticket.name : "", ticket.index);
+  }
   if (sight.right) add_right(*sight.right, record.number, *payload);
   if (payload->right) {
     ++report_.pairs_delivered;
@@ -214,12 +223,24 @@ GreyImage RawlogSource::Impl::decoded(const StoredImage& image,
   return camera_.rectify(image.grey(in_log), image.name(in_log));
 }
 
+// The mask belongs to the image as it is stored, and is undistorted as it is.
+void RawlogSource::Impl::add_image(const Payload& payload, const std::string& ticket_name,
+                                   CameraFrame& frame) const {
+  const std::string in_log = options_.log.string() + ": " + ticket_name;
+  GreyImage stored = payload.image.grey(in_log);
+  if (!payload.mask.empty()) {
+    frame.mask =
+        camera_.rectify(read_mask(payload.mask, stored.view(), ticket_name), payload.mask.string());
+  }
+  frame.image = camera_.rectify(std::move(stored), payload.image.name(in_log));
+}
+
 CameraFrame RawlogSource::Impl::load(const FrameTicket& ticket) const {
   const auto& payload = *static_cast<const Payload*>(ticket.payload.get());
   CameraFrame frame;
   {
     const StageTimer timer(frame.decode_ms);
-    frame.image = decoded(payload.image, ticket.name);
+    add_image(payload, ticket.name, frame);
     if (payload.right) frame.right = decoded(*payload.right, ticket.name + " (right)");
   }
   frame.baseline_m = payload.baseline_m;

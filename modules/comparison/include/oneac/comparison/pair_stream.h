@@ -29,7 +29,9 @@ class PairExtractor {
   explicit PairExtractor(const FeatureOptions& options);
 
   /// Thread-safe. @pre the image is not empty
-  [[nodiscard]] std::shared_ptr<const FrameFeatures> prepare(const ImageView& image) const;
+  /// @param mask  as of AcTracker::prepare()
+  [[nodiscard]] std::shared_ptr<const FrameFeatures> prepare(const ImageView& image,
+                                                             const ImageView& mask) const;
   /// In pixels. Thread-safe.
   [[nodiscard]] std::vector<AffineCorrespondence> correspond(
       std::shared_ptr<const FrameFeatures> first, std::shared_ptr<const FrameFeatures> second,
