@@ -14,6 +14,7 @@
 
 #include <CLI/CLI.hpp>
 
+#include <algorithm>
 #include <filesystem>
 #include <iostream>
 #include <memory>
@@ -116,6 +117,21 @@ void compare(CompareFlags& flags) {
 }
 
 void merge(const CompareFlags& flags) {
+/// What there is is written; a script must not take it for the whole.
+InputError incomplete(const std::vector<std::string>& missing) {
+  constexpr std::size_t kMostNamed = 5;  // the report has them all
+  std::string fault;
+  for (std::size_t i = 0; i < std::min(missing.size(), kMostNamed); ++i) {
+    fault += (i == 0 ? "" : "; ") + missing[i];
+  }
+  if (missing.size() > kMostNamed) {
+    fault += "; and " + std::to_string(missing.size() - kMostNamed) + " more";
+  }
+  return {"compare --merge", fault,
+          "what there is is written; run what is missing (the same command with its --shard, into "
+          "its folder: it goes on where it stopped) and merge all again"};
+}
+
   std::vector<JournalContent> journals;
   for (const auto& path : find_journals({flags.merge.begin(), flags.merge.end()})) {
     journals.push_back(read_journal(path));
@@ -127,11 +143,15 @@ void merge(const CompareFlags& flags) {
   const CompareSettings settings = settings_of(journals.front());
   require_writable_folder(flags.options.output);
   const ComparisonData data = merge_journals(settings, journals);
-  std::vector<std::string> notes = missing_in(journals, data);
-  add_method_faults(data, notes);
-  tell(flags, notes);
+  const std::vector<std::string> missing = missing_in(journals, data);
+  std::vector<std::string> faults;
+  add_method_faults(data, faults);
+  tell(flags, faults);
+  std::vector<std::string> notes = missing;
+  notes.insert(notes.end(), faults.begin(), faults.end());
   write_comparison(data, settings, notes, kPictures, flags.options.output);
 }
+  if (!missing.empty()) throw incomplete(missing);
 
 void run(CompareFlags& flags) {
   if (flags.options.output.empty()) {

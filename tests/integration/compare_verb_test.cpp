@@ -120,7 +120,7 @@ TEST_F(CompareVerb, SaysThatAShardIsMissing) {
   const fs::path even = done("even", {"--shard", "0/2"});
   const ProgramResult result =
       oneac_program({"compare", "--merge", even.string(), "-o", (scratch() / "merged").string()});
-  EXPECT_EQ(result.exit_code, 0);
+  EXPECT_EQ(result.exit_code, 2) << "a script must not take it for the whole";
   EXPECT_NE(result.err.find("not complete: 4 of 7 pairs"), std::string::npos) << result.err;
   EXPECT_NE(result.err.find("no journal of shard 1/2"), std::string::npos) << result.err;
 }
@@ -153,6 +153,10 @@ TEST_F(CompareVerb, RefusesToGoOnWithOtherSettings) {
 TEST_F(CompareVerb, SuggestsTheNearestMethod) {
   const ProgramResult result = compare(scratch() / "a", {"--initialisers", "1ac_poled"});
   EXPECT_EQ(result.exit_code, 2);
+  EXPECT_NE(result.err.find("with its --shard"), std::string::npos) << result.err;
+  EXPECT_EQ(std::count(result.err.begin(), result.err.end(), '\n'), 1) << result.err;
+  EXPECT_EQ(lines_of(read_file(scratch() / "merged" / "pairs.csv")).size(), 1 + 4 * 2)
+      << "what was computed is not lost";
   EXPECT_NE(result.err.find("1ac_pooled"), std::string::npos) << result.err;
   EXPECT_EQ(lines_of(result.err).size(), 1U);
 }
