@@ -94,16 +94,17 @@ void compare(CompareFlags& flags) {
   require_writable_folder(flags.options.output);
   Journal journal(flags.options.output, settings, shard);
   catch_interrupts();
-  std::vector<std::string> damage;
+  std::vector<std::string> damage, notes;
   {
     ProgressBar bar(flags.options.run.progress && !flags.no_progress && !flags.quiet, "pairs");
     CompareHooks hooks;
     hooks.threads = flags.options.run.threads;
     hooks.keep_going = [] { return !interrupted(); };
     hooks.progress = [&bar](double share, std::size_t pairs) { bar.update(share, pairs); };
+    hooks.note = [&notes](const std::string& note) { notes.push_back(note); };
     damage = run_comparison(settings, shard, journal, hooks);
   }
-  std::vector<std::string> notes = damage;
+  notes.insert(notes.end(), damage.begin(), damage.end());
   if (interrupted()) {
     notes.emplace_back("interrupted: run the same command again and it goes on from here");
   }
@@ -116,7 +117,6 @@ void compare(CompareFlags& flags) {
   if (!damage.empty()) throw InputError("log", damage.front(), "");
 }
 
-void merge(const CompareFlags& flags) {
 /// What there is is written; a script must not take it for the whole.
 InputError incomplete(const std::vector<std::string>& missing) {
   constexpr std::size_t kMostNamed = 5;  // the report has them all
@@ -132,6 +132,7 @@ InputError incomplete(const std::vector<std::string>& missing) {
           "its folder: it goes on where it stopped) and merge all again"};
 }
 
+void merge(const CompareFlags& flags) {
   std::vector<JournalContent> journals;
   for (const auto& path : find_journals({flags.merge.begin(), flags.merge.end()})) {
     journals.push_back(read_journal(path));
@@ -150,8 +151,8 @@ InputError incomplete(const std::vector<std::string>& missing) {
   std::vector<std::string> notes = missing;
   notes.insert(notes.end(), faults.begin(), faults.end());
   write_comparison(data, settings, notes, kPictures, flags.options.output);
-}
   if (!missing.empty()) throw incomplete(missing);
+}
 
 void run(CompareFlags& flags) {
   if (flags.options.output.empty()) {

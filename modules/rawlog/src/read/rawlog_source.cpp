@@ -14,8 +14,8 @@
 #include "oneac/mrpt_compat/observations.h"
 #include "oneac/observations/camera_reader.h"
 #include "oneac/observations/pose_watch.h"
-#include "oneac/rawlog/calibration.h"
 #include "oneac/observations/wheel_readings.h"
+#include "oneac/rawlog/calibration.h"
 
 #include <utility>
 
@@ -65,9 +65,9 @@ class RawlogSource::Impl {
  private:
   [[nodiscard]] CameraReaderOptions reader_options() const;
   [[nodiscard]] std::optional<Sight> take(const RawlogRecord& record);
+  void take_wheels(const mrpt::obs::CObservation& observation);
   [[nodiscard]] bool is_selected(std::size_t index) const;
   [[nodiscard]] std::optional<FrameTicket> ticket_of(const Sight& sight,
-  void take_wheels(const mrpt::obs::CObservation& observation);
                                                      const RawlogRecord& record);
   void settle_size(const StoredImage& first, const std::string& ticket_name);
   void add_right(const LogView& right, std::size_t record, Payload& payload);
@@ -85,12 +85,12 @@ class RawlogSource::Impl {
   ReferenceCollector collector_;
   NameOrder names_;
   PoseWatch poses_;
+  WheelFollower wheels_;
+  std::vector<SpeedReading> wheel_speeds_;  ///< that no ticket has taken along yet
   SourceReport report_;
   std::size_t delivered_ = 0;
   std::optional<double> last_time_;
   bool size_settled_ = false;
-  WheelFollower wheels_;
-  std::vector<SpeedReading> wheel_speeds_;  ///< that no ticket has taken along yet
 };
 
 RawlogSource::Impl::Impl(const SourceOptions& options)
@@ -124,12 +124,12 @@ std::string RawlogSource::Impl::where(std::size_t record) const {
 // Books the record; its view by the chosen camera, if it has one.
 std::optional<Sight> RawlogSource::Impl::take(const RawlogRecord& record) {
   collector_.add(*record.observation);
+  take_wheels(*record.observation);
   std::optional<Sight> sight;
   for (auto& view : log_views(record)) {
     if (view.name() == chosen_.name) {
       ++report_.images_in_log;
       sight.emplace(Sight{view, std::nullopt});
-  take_wheels(*record.observation);
     } else if (sight && options_.stereo && view.side == CameraView::Side::right) {
       sight->right = view;  // it comes behind the left one
     }
@@ -137,17 +137,17 @@ std::optional<Sight> RawlogSource::Impl::take(const RawlogRecord& record) {
   return sight;
 }
 
-bool RawlogSource::Impl::is_selected(std::size_t index) const {
-  return index >= options_.first && (index - options_.first) % options_.every == 0;
-}
-
-std::optional<FrameTicket> RawlogSource::Impl::next() {
 void RawlogSource::Impl::take_wheels(const mrpt::obs::CObservation& observation) {
   const WheelFollower::Taken taken = wheels_.take(observation);
   if (taken.use == WheelFollower::Use::kTaken) ++report_.wheel_readings;
   if (taken.speed) wheel_speeds_.push_back(*taken.speed);
 }
 
+bool RawlogSource::Impl::is_selected(std::size_t index) const {
+  return index >= options_.first && (index - options_.first) % options_.every == 0;
+}
+
+std::optional<FrameTicket> RawlogSource::Impl::next() {
   if (options_.count != 0 && delivered_ == options_.count) return std::nullopt;
   while (const auto record = reader_.next()) {
     const auto sight = take(*record);
@@ -156,12 +156,12 @@ void RawlogSource::Impl::take_wheels(const mrpt::obs::CObservation& observation)
     if (!ticket) continue;
     ++delivered_;
     last_time_ = ticket->time_s;
+    ticket->wheels = std::exchange(wheel_speeds_, {});
     return ticket;
   }
   complete_report();
   return std::nullopt;
 }
-    ticket->wheels = std::exchange(wheel_speeds_, {});
 
 void RawlogSource::Impl::add_right(const LogView& right, std::size_t record, Payload& payload) {
   const double baseline = camera_.baseline(right, where(record));
@@ -282,6 +282,9 @@ std::optional<FrameTicket> RawlogSource::next() {
 }
 CameraFrame RawlogSource::load(const FrameTicket& ticket) const {
   return impl_->load(ticket);
+}
+std::size_t RawlogSource::stored_bytes(const FrameTicket& ticket) const {
+  return static_cast<const Payload*>(ticket.payload.get())->image.bytes();
 }
 void RawlogSource::finish() {
   impl_->finish();

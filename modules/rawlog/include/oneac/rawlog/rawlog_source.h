@@ -43,8 +43,8 @@ struct SourceReport {
   std::string damage;  ///< one line (file, record, fault, cure) when the log ends badly, else ""
   std::string names_out_of_order;   ///< one line with the cure, else ""
   VehicleReference reference;       ///< GPS and IMU seen on the way
-  std::string calibration_scaled;   ///< one line: it was given for another size, else ""
   std::size_t wheel_readings = 0;   ///< of the odometer that is followed
+  std::string calibration_scaled;   ///< one line: it was given for another size, else ""
   bool undistorted_by_log = false;  ///< images are taken for raw, because the log's calibration is
 };
 
@@ -74,6 +74,9 @@ class RawlogSource {
   /// @throws InputError naming the image when it cannot be decoded or has another size
   ///         than the calibration, or its mask one than it
   [[nodiscard]] CameraFrame load(const FrameTicket& ticket) const;
+  /// What the image takes in its file, or in the log [byte]; 0 when it cannot be told.
+  /// Thread-safe. Repeated images take as many.
+  [[nodiscard]] std::size_t stored_bytes(const FrameTicket& ticket) const;
   /// Reads on (without images) up to two seconds past the last image, so that the reference covers
   /// the drive; then `report` is complete. Call when done.
   void finish();
@@ -91,9 +94,9 @@ struct FrameTicket {
   std::size_t index = 0;
   double time_s = 0.0;
   std::string name;
+  /// By the log's wheels, as far as they are known before the image; each goes to one ticket.
+  std::vector<SpeedReading> wheels;
   std::shared_ptr<const void> payload;  ///< internal: the observation or the path of its image
 };
 
 }  // namespace oneac
-  /// By the log's wheels, as far as they are known before the image; each goes to one ticket.
-  std::vector<SpeedReading> wheels;
