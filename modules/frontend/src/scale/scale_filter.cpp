@@ -96,7 +96,7 @@ double ScaleFilter::correct_by_wheels(double log_ratio, double sigma) {
 }
 
 bool ScaleFilter::is_likely(double innovation, double noise) const {
-  const double total = variance_ + 2.0 * covariance_ + error_variance_ + noise;
+  const double total = (variance_ + covariance_) + (error_variance_ + covariance_) + noise;
   return std::abs(innovation) <= options_.outlier_sigmas * std::sqrt(total);
 }
 
