@@ -14,6 +14,7 @@
 
 #include <CLI/CLI.hpp>
 
+#include <algorithm>
 #include <filesystem>
 #include <iostream>
 #include <memory>
@@ -93,16 +94,17 @@ void compare(CompareFlags& flags) {
   require_writable_folder(flags.options.output);
   Journal journal(flags.options.output, settings, shard);
   catch_interrupts();
-  std::vector<std::string> damage;
+  std::vector<std::string> damage, notes;
   {
     ProgressBar bar(flags.options.run.progress && !flags.no_progress && !flags.quiet, "pairs");
     CompareHooks hooks;
     hooks.threads = flags.options.run.threads;
     hooks.keep_going = [] { return !interrupted(); };
     hooks.progress = [&bar](double share, std::size_t pairs) { bar.update(share, pairs); };
+    hooks.note = [&notes](const std::string& note) { notes.push_back(note); };
     damage = run_comparison(settings, shard, journal, hooks);
   }
-  std::vector<std::string> notes = damage;
+  notes.insert(notes.end(), damage.begin(), damage.end());
   if (interrupted()) {
     notes.emplace_back("interrupted: run the same command again and it goes on from here");
   }
@@ -113,6 +115,21 @@ void compare(CompareFlags& flags) {
   write_comparison(data, settings, notes, interrupted() ? 0 : kPictures, flags.options.output);
   if (interrupted()) throw std::runtime_error("interrupted; what was computed is written");
   if (!damage.empty()) throw InputError("log", damage.front(), "");
+}
+
+/// What there is is written; a script must not take it for the whole.
+InputError incomplete(const std::vector<std::string>& missing) {
+  constexpr std::size_t kMostNamed = 5;  // the report has them all
+  std::string fault;
+  for (std::size_t i = 0; i < std::min(missing.size(), kMostNamed); ++i) {
+    fault += (i == 0 ? "" : "; ") + missing[i];
+  }
+  if (missing.size() > kMostNamed) {
+    fault += "; and " + std::to_string(missing.size() - kMostNamed) + " more";
+  }
+  return {"compare --merge", fault,
+          "what there is is written; run what is missing (the same command with its --shard, into "
+          "its folder: it goes on where it stopped) and merge all again"};
 }
 
 void merge(const CompareFlags& flags) {
@@ -127,10 +144,14 @@ void merge(const CompareFlags& flags) {
   const CompareSettings settings = settings_of(journals.front());
   require_writable_folder(flags.options.output);
   const ComparisonData data = merge_journals(settings, journals);
-  std::vector<std::string> notes = missing_in(journals, data);
-  add_method_faults(data, notes);
-  tell(flags, notes);
+  const std::vector<std::string> missing = missing_in(journals, data);
+  std::vector<std::string> faults;
+  add_method_faults(data, faults);
+  tell(flags, faults);
+  std::vector<std::string> notes = missing;
+  notes.insert(notes.end(), faults.begin(), faults.end());
   write_comparison(data, settings, notes, kPictures, flags.options.output);
+  if (!missing.empty()) throw incomplete(missing);
 }
 
 void run(CompareFlags& flags) {

@@ -54,8 +54,9 @@ void evaluate(const EvalArguments& arguments) {
 void add_eval(CLI::App& program) {
   auto* verb = program.add_subcommand("eval", "Compares an estimate with a reference trajectory");
   auto arguments = std::make_shared<EvalArguments>();
-  verb->add_option("ESTIMATE", arguments->estimate,
-                   "relative_poses.csv (pairs), or a trajectory: .kitti, .tum, .txt of either")
+  verb->add_option(
+          "ESTIMATE", arguments->estimate,
+          "relative_poses.csv (pairs), or a trajectory: .kitti, .tum, .txt of either, .csv")
       ->required();
   verb->add_option(
           "REFERENCE", arguments->reference,

@@ -158,9 +158,11 @@ void add_import(CLI::App& program) {
   verb->require_subcommand(1);
   add_kitti(*verb);
   add_malaga(*verb);
-  add_folder(*verb, "images", "Images of any names in a folder",
-             "Folder with the images; times.txt when present, else times in their names or --fps",
-             import_image_folder);
+  add_folder(
+      *verb, "images", "Images of any names in a folder",
+      "Folder with the images; times.txt when present, else times in their names, else those "
+      "of EXIF; or --fps",
+      import_image_folder);
   add_video(*verb);
   add_folder(*verb, "euroc", "EuRoC sequence",
              "Folder with mav0, or mav0 itself: cam0/data.csv, "

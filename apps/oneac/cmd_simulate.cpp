@@ -32,6 +32,7 @@ struct SimulateArguments {
   std::string calibration_error = "none";
   int threads = 0;
   int laps = 0;
+  bool odometry = false;
   bool no_progress = false;
 };
 
@@ -57,6 +58,14 @@ std::vector<ImuRecord> imu_records(const StreetSimulator& simulator) {
   for (const SimulatedImu& reading : simulator.imu()) {
     records.push_back(
         {reading.time_s, "IMU", reading.specific_force_mps2, reading.angular_rate_radps});
+  }
+  return records;
+}
+
+std::vector<OdometryRecord> wheel_records(const StreetSimulator& simulator) {
+  std::vector<OdometryRecord> records;
+  for (const SimulatedWheels& reading : simulator.wheels()) {
+    records.push_back({reading.time_s, "WHEELS", reading.position_m, reading.heading_rad});
   }
   return records;
 }
@@ -147,6 +156,7 @@ void simulate(const SimulateArguments& arguments) {
   catch_interrupts();
   const StreetSimulator simulator(drive_of(arguments));
   DriveRecording drive = recording_of(simulator);
+  if (arguments.odometry) drive.wheels = wheel_records(simulator);
   if (arguments.mount == "optical") drive.convention = MountConvention::optical;
   falsify(drive, arguments);
   drive.threads = number_of_threads(arguments.threads);
@@ -198,6 +208,8 @@ void add_simulate(CLI::App& program) {
   verb->add_option("--laps", arguments->laps, "As many frames as this many laps of the block take")
       ->check(CLI::PositiveNumber)
       ->excludes("--frames");
+  verb->add_flag("--odometry", arguments->odometry,
+                 "The log has the odometry of the vehicle's wheels, too");
   verb->add_option("--threads", arguments->threads, "0: as many as the machine has")
       ->check(CLI::NonNegativeNumber)
       ->capture_default_str();

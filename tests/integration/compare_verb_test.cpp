@@ -116,13 +116,47 @@ TEST_F(CompareVerb, MergedShardsAreTheWholeComparison) {
   expect_same_results(whole, merged);
 }
 
+TEST_F(CompareVerb, LeavesOutImagesThatRepeatTheOneBeforeAsRunDoes) {
+  const fs::path images = scratch() / "frozen";
+  fs::copy(drive() / "Images", images);
+  std::vector<fs::path> files;
+  for (const auto& entry : fs::directory_iterator(images)) files.push_back(entry.path());
+  std::sort(files.begin(), files.end());
+  for (const std::size_t frozen : {3U, 4U}) {
+    fs::copy_file(files[2], files[frozen], fs::copy_options::overwrite_existing);
+  }
+  const std::vector<std::string> flags = {"--images-dir", images.string()};
+  const fs::path whole = scratch() / "whole";
+  const ProgramResult result = compare(whole, flags);
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_NE(result.err.find("2 images repeat the one before, pixel by pixel (first: " +
+                            files[3].filename().string()),
+            std::string::npos)
+      << result.err;
+  const auto lines = lines_of(read_file(whole / "pairs.csv"));
+  ASSERT_EQ(lines.size(), 1 + (kPairs - 2) * 2);
+  EXPECT_EQ(cells_of(lines[5])[1] + "-" + cells_of(lines[5])[2], "2-5");
+  auto odd = flags, even = flags;
+  odd.insert(odd.end(), {"--shard", "1/2"});
+  even.insert(even.end(), {"--shard", "0/2"});
+  ASSERT_EQ(oneac_program({"compare", "--merge", done("odd", odd).string(),
+                           done("even", even).string(), "-o", (scratch() / "merged").string()})
+                .exit_code,
+            0);
+  expect_same_results(whole, scratch() / "merged");
+}
+
 TEST_F(CompareVerb, SaysThatAShardIsMissing) {
   const fs::path even = done("even", {"--shard", "0/2"});
   const ProgramResult result =
       oneac_program({"compare", "--merge", even.string(), "-o", (scratch() / "merged").string()});
-  EXPECT_EQ(result.exit_code, 0);
+  EXPECT_EQ(result.exit_code, 2) << "a script must not take it for the whole";
   EXPECT_NE(result.err.find("not complete: 4 of 7 pairs"), std::string::npos) << result.err;
   EXPECT_NE(result.err.find("no journal of shard 1/2"), std::string::npos) << result.err;
+  EXPECT_NE(result.err.find("with its --shard"), std::string::npos) << result.err;
+  EXPECT_EQ(std::count(result.err.begin(), result.err.end(), '\n'), 1) << result.err;
+  EXPECT_EQ(lines_of(read_file(scratch() / "merged" / "pairs.csv")).size(), 1 + 4 * 2)
+      << "what was computed is not lost";
 }
 
 TEST_F(CompareVerb, GoesOnWhereItWasInterrupted) {

@@ -6,8 +6,10 @@
 
 #include <Eigen/Dense>
 #include <nlohmann/json.hpp>
+#include <opencv2/imgcodecs.hpp>
 
 #include <algorithm>
+#include <fstream>
 #include <sstream>
 #include <string>
 
@@ -202,6 +204,67 @@ TEST_F(RunVerb, QuietSaysNothingOnStderr) {
   const ProgramResult result = oneac_program({"run", log(), "-o", out(), "--quiet"});
   EXPECT_EQ(result.exit_code, 0);
   EXPECT_EQ(result.err, "");
+}
+
+/// White, dark in a band across the left half; as a PGM.
+void write_masks(const fs::path& images, const fs::path& masks, int width, int height) {
+  fs::create_directories(masks);
+  std::string pixels(static_cast<std::size_t>(width) * static_cast<std::size_t>(height), '\xff');
+  for (int v = 0; v < height; ++v) {
+    std::fill_n(pixels.begin() + v * width, width / 2, '\0');
+  }
+  for (const auto& entry : fs::directory_iterator(images)) {
+    std::ofstream(masks / (entry.path().stem().string() + ".pgm"), std::ios::binary)
+        << "P5\n"
+        << width << " " << height << "\n255\n"
+        << pixels;
+  }
+}
+
+/// [m] to the right of the first camera, of the landmark that is farthest to its left.
+double leftmost_point(const fs::path& cloud) {
+  const std::string text = read_file(cloud);
+  std::istringstream points(text.substr(text.find("end_header") + 11));
+  double leftmost = 1e9;
+  for (std::string line; std::getline(points, line);) {
+    leftmost = std::min(leftmost, std::stod(line));
+  }
+  return leftmost;
+}
+
+TEST_F(RunVerb, MakesNothingOfWhatMasksOfSingleImagesHide) {
+  const fs::path masks = scratch() / "masks";
+  const cv::Mat first = cv::imread(fs::directory_iterator(drive() / "Images")->path().string());
+  write_masks(drive() / "Images", masks, first.cols, first.rows);
+  const ProgramResult result =
+      oneac_program({"run", log(), "-o", out(), "--no-progress", "--mask-dir", masks.string()});
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  const double masked = leftmost_point(fs::path(out()) / "points.ply");
+  const ProgramResult features =
+      oneac_program({"features", log(), "-o", (scratch() / "features").string(), "--no-progress",
+                     "--mask-dir", masks.string()});
+  ASSERT_EQ(features.exit_code, 0) << features.err;
+  EXPECT_NE(read_file(fs::path(out()) / "params.yaml").find("mask_dir"), std::string::npos);
+  const ProgramResult plain = oneac_program({"run", log(), "-o", out(), "--no-progress"});
+  ASSERT_EQ(plain.exit_code, 0);
+  EXPECT_GT(masked, -0.5);
+  EXPECT_LT(leftmost_point(fs::path(out()) / "points.ply"), -2.0);
+}
+
+TEST_F(RunVerb, SaysWhichMaskIsMissingOrOfAnotherSize) {
+  const fs::path masks = scratch() / "masks";
+  const auto fault = [&] {
+    return oneac_program(
+        {"run", log(), "-o", out(), "--no-progress", "--mask-dir", masks.string()});
+  };
+  const ProgramResult none = fault();
+  EXPECT_EQ(none.exit_code, 2);
+  EXPECT_NE(none.err.find("no such folder of masks"), std::string::npos) << none.err;
+  write_masks(drive() / "Images", masks, 32, 24);
+  const ProgramResult small = fault();
+  EXPECT_EQ(small.exit_code, 2);
+  EXPECT_NE(small.err.find("the mask has 32x24 pixels"), std::string::npos) << small.err;
+  EXPECT_EQ(std::count(small.err.begin(), small.err.end(), '\n'), 1) << small.err;
 }
 
 }  // namespace

@@ -8,6 +8,7 @@
 #include <mrpt/io/CFileGZOutputStream.h>
 #include <mrpt/obs/CObservationGPS.h>
 #include <mrpt/obs/CObservationIMU.h>
+#include <mrpt/obs/CObservationOdometry.h>
 #include <mrpt/obs/CObservationStereoImages.h>
 #include <mrpt/serialization/CArchive.h>
 
@@ -60,6 +61,7 @@ std::string feed_all(const Observations& observations, const FrontEndOptions& op
   }
   std::size_t next = 0;
   for (const auto& observation : observations) {
+    if (is<mrpt::obs::CObservationOdometry>(observation)) front_end.feed(observation);
     if (!is<mrpt::obs::CObservationImage>(observation) &&
         !is<mrpt::obs::CObservationStereoImages>(observation)) {
       continue;

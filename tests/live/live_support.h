@@ -25,8 +25,8 @@ void write_log(const std::filesystem::path& log, const Observations& observation
 
 /// The poses that feed() makes of the observations, final, as `oneac run` writes them.
 ///
-/// In the order that `oneac run` gives: the IMU of the whole drive first, speeds a second and a
-/// half ahead of the images.
+/// In the order that `oneac run` gives: the IMU of the whole drive first, speeds of the GPS a
+/// second and a half ahead of the images, wheels as they come.
 [[nodiscard]] std::string feed_all(const Observations& observations,
                                    const FrontEndOptions& options);
 /// What the InputError says that feed() throws on the way; "" without one.

@@ -132,6 +132,25 @@ std::vector<CovarianceRow> DriveRecord::covariances() const {
   return rows;
 }
 
+std::vector<PoseCovarianceRow> DriveRecord::camera_poses() const {
+  const auto covariances = pose_covariances(frames, common_length_sigma, camera_belief.doubt);
+  const bool scaled = has_scale();
+  std::vector<PoseCovarianceRow> rows;
+  for (std::size_t i = 0; i < frames.size(); ++i) {
+    const FrameResult& frame = frames[i];
+    rows.push_back({frame.index, frame.time_s, frame.T_first_cam, covariances[i],
+                    frame.step && frame.step->metric, scaled});
+  }
+  return rows;
+}
+
+std::vector<PoseCovarianceRow> DriveRecord::vehicle_poses() const {
+  const Eigen::Isometry3d T = mount();
+  std::vector<PoseCovarianceRow> rows = camera_poses();
+  for (PoseCovarianceRow& row : rows) row = carried_to(T, row);
+  return rows;
+}
+
 std::vector<TimingRow> DriveRecord::timings() const {
   std::vector<TimingRow> rows;
   for (std::size_t i = 0; i < frames.size(); ++i) {

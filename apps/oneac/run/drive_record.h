@@ -74,6 +74,10 @@ struct DriveRecord {
   [[nodiscard]] Trajectory vehicle_trajectory() const;
   [[nodiscard]] std::vector<RelativePoseRow> relative_poses() const;
   [[nodiscard]] std::vector<CovarianceRow> covariances() const;
+  /// Of camera_trajectory(), with how sure its poses are.
+  [[nodiscard]] std::vector<PoseCovarianceRow> camera_poses() const;
+  /// Of vehicle_trajectory(), the same.
+  [[nodiscard]] std::vector<PoseCovarianceRow> vehicle_poses() const;
   [[nodiscard]] std::vector<TimingRow> timings() const;
 };
 

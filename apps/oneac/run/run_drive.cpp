@@ -19,6 +19,7 @@ namespace {
 struct Prepared {
   PreparedFrame frame;
   double decode_ms = 0.0;
+  std::vector<SpeedReading> wheels;  ///< known before it
 };
 
 SourceOptions source_options(const RunOptions& options) {
@@ -145,8 +146,11 @@ class Drive {
   std::optional<FrameTicket> next() {
     while (!interrupted()) {
       auto ticket = next_of_source();
-      if (!ticket || ticket->time_s > last_time_) {
-        if (ticket) last_time_ = ticket->time_s;
+      if (!ticket) return ticket;
+      wheels_.insert(wheels_.end(), ticket->wheels.begin(), ticket->wheels.end());
+      if (ticket->time_s > last_time_) {
+        last_time_ = ticket->time_s;
+        ticket->wheels = std::exchange(wheels_, {});
         return ticket;
       }
       ++record_.out_of_order;
@@ -158,12 +162,13 @@ class Drive {
   [[nodiscard]] Prepared prepare(const FrameTicket& ticket) const {
     CameraFrame frame = source_.load(ticket);
     const double decode_ms = frame.decode_ms;
-    return Prepared{front_end_.prepare(std::move(frame)), decode_ms};
+    return Prepared{front_end_.prepare(std::move(frame)), decode_ms, ticket.wheels};
   }
 
   /// @return whether to go on
   bool process(Prepared prepared) {
     const CameraFrame& frame = prepared.frame.frame;
+    feed_wheels(prepared.wheels);
     if (repeats_.repeats(frame.image.view())) {
       if (record_.repeated++ == 0) record_.first_repeated = frame.name;
       return !interrupted();
@@ -184,6 +189,13 @@ class Drive {
     return !interrupted();
   }
 
+  void feed_wheels(const std::vector<SpeedReading>& speeds) {
+    if (options_.front_end.scale.source != "wheels") return;
+    for (const SpeedReading& told : speeds) {
+      front_end_.add_speed(told.time_s, told.speed, told.sigma);
+    }
+  }
+
   void observe(const GreyImage& image) {
     observer_({image, front_end_.correspondences(), record_, front_end_.newest_keyframe()});
   }
@@ -193,6 +205,7 @@ class Drive {
     const ScaleOptions& scale = options_.front_end.scale;
     record_.scale_source = scale.source;
     if (scale.source == "height") record_.common_length_sigma = scale.road_uncertainty;
+    if (scale.source == "wheels") record_.common_length_sigma = scale.wheel_uncertainty;
     record_.camera = first.camera;
     record_.raw_camera = first.raw_camera;
   }
@@ -228,6 +241,7 @@ class Drive {
   SpeedFeeder speeds_{sensors_.speeds};
   ProgressBar progress_;
   RepeatWatch repeats_;
+  std::vector<SpeedReading> wheels_;  ///< that wait for an image in order
   bool source_failed_ = false;
   double last_time_ = -std::numeric_limits<double>::infinity();
   DriveRecord record_;

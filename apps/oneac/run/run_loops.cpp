@@ -13,7 +13,9 @@
 #include "oneac/loops/loop_formats.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <map>
 #include <utility>
 
@@ -45,6 +47,26 @@ LoopCamera camera_of(const DriveRecord& record, const RunOptions& options) {
   return camera;
 }
 
+/// Features whose centre the mask uses.
+AffineFeatures outside(const GreyImage& mask, AffineFeatures features) {
+  if (mask.empty()) return features;
+  constexpr std::uint8_t kUsed = 128;
+  AffineFeatures kept;
+  kept.descriptors.resize(features.descriptors.rows(), Eigen::NoChange);
+  for (std::size_t i = 0; i < features.frames.size(); ++i) {
+    const Eigen::Vector2d& u = features.frames[i].centre;
+    const int column = std::clamp(static_cast<int>(std::lround(u.x())), 0, mask.width() - 1);
+    const int row = std::clamp(static_cast<int>(std::lround(u.y())), 0, mask.height() - 1);
+    if (mask.row(row)[column] < kUsed) continue;
+    kept.descriptors.row(static_cast<Eigen::Index>(kept.frames.size())) =
+        features.descriptors.row(static_cast<Eigen::Index>(i));
+    kept.frames.push_back(features.frames[i]);
+  }
+  kept.descriptors.conservativeResize(static_cast<Eigen::Index>(kept.frames.size()),
+                                      Eigen::NoChange);
+  return kept;
+}
+
 /// The log once more, for the images of keyframes alone.
 class KeyframeImages {
  public:
@@ -65,8 +87,8 @@ class KeyframeImages {
   }
 
   /// Any thread. @throws InputError where the image has gone
-  [[nodiscard]] GreyImage load(std::size_t place) const {
-    return tickets_[place] ? source_.load(*tickets_[place]).image : GreyImage{};
+  [[nodiscard]] CameraFrame load(std::size_t place) const {
+    return tickets_[place] ? source_.load(*tickets_[place]) : CameraFrame{};
   }
 
  private:
@@ -85,7 +107,7 @@ FoundLoops find_loops(const std::vector<LoopKeyframe>& keyframes, const DriveRec
                       const RunOptions& options) {
   const KeyframeImages images(keyframes, options);
   LoopCloser closer(options.loops, camera_of(record, options),
-                    [&](std::size_t place) { return images.load(place); });
+                    [&](std::size_t place) { return images.load(place).image; });
   ProgressBar progress(options.run.progress && !options.run.quiet, "keyframes");
   progress.expect(keyframes.size());
   std::size_t at = 0, added = 0;
@@ -93,8 +115,9 @@ FoundLoops find_loops(const std::vector<LoopKeyframe>& keyframes, const DriveRec
     return at == keyframes.size() || interrupted() ? std::nullopt : std::optional(at++);
   };
   const auto detect = [&](std::size_t place) {
-    const GreyImage image = images.load(place);
-    return image.empty() ? AffineFeatures{} : closer.features(image.view());
+    const CameraFrame frame = images.load(place);
+    if (frame.image.empty()) return AffineFeatures{};
+    return outside(frame.mask, closer.features(frame.image.view()));
   };
   const auto add = [&](const AffineFeatures& features) {
     closer.add(keyframes[added++], features);

@@ -14,6 +14,8 @@ template <class Visitor>
 void describe(Visitor&& visit, SourceParameters& o) {
   visit("camera", o.camera, "name", "left, right or a sensor label; empty: the only one");
   visit("images_dir", o.images_dir, "path", "external images; empty: searched beside the log");
+  visit("mask_dir", o.mask_dir, "path",
+        "a mask per image, called as it is: dark where it is not used; empty: none");
   visit("calibration", o.calibration, "path", "FILE[:SECTION] that replaces the log's");
   visit("undistorted_fov_deg", o.undistorted_fov_deg, "deg",
         "across undistorted images; 0: chosen to keep the road");
@@ -96,6 +98,7 @@ SourceOptions SourceParameters::for_log(const std::string& log) const {
   SourceOptions options;
   options.log = log;
   options.images_dir = images_dir;
+  options.mask_dir = mask_dir;
   options.camera = camera;
   options.calibration = calibration;
   options.undistorted_fov_deg = undistorted_fov_deg;

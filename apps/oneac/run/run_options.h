@@ -16,6 +16,7 @@ namespace oneac::app {
 struct SourceParameters {
   std::string camera;
   std::string images_dir;
+  std::string mask_dir;
   std::string calibration;
   double undistorted_fov_deg = 0.0;
   std::string mount_convention = "auto";

@@ -81,6 +81,14 @@ std::string about_missing_scale(const DriveRecord& record) {
                : std::string("the GPS told no speed above walking pace that covers the images") +
                      kSo;
   }
+  if (record.scale_source == "wheels") {
+    return record.source.wheel_readings == 0
+               ? std::string("the log holds no odometry of wheels") + kSo
+               : std::string(
+                     "the wheels told no speeds above walking pace that agree with the "
+                     "images for twenty metres") +
+                     kSo;
+  }
   if (record.scale_source == "stereo") {
     return std::string("the right images gave too few depths") + kSo;
   }
@@ -88,12 +96,14 @@ std::string about_missing_scale(const DriveRecord& record) {
     return std::string("the road was nowhere seen well enough to measure by") + kSo;
   }
   return std::string("neither the height of the camera nor a speed is known") + kSo +
-         "; give --camera-height, or set front_end.scale.source: gps";
+         "; give --camera-height, or set front_end.scale.source: gps" +
+         (record.source.wheel_readings > 0 ? " or wheels" : "");
 }
 
 /// Who could have told a length in metres.
 std::string tellers(const DriveRecord& record) {
   if (record.scale_source == "gps") return "landmarks nor GPS speeds";
+  if (record.scale_source == "wheels") return "landmarks nor wheels";
   return record.scale_source == "stereo" ? "landmarks nor right images" : "landmarks nor the road";
 }
 
@@ -193,6 +203,10 @@ void write_drive(const DriveRecord& record, const std::filesystem::path& folder)
   write_file_atomically(folder / "relative_poses.csv",
                         format_relative_poses(record.relative_poses()));
   write_file_atomically(folder / "covariance.csv", format_covariances(record.covariances()));
+  write_file_atomically(folder / "trajectory_camera.csv",
+                        format_pose_covariances(record.camera_poses()));
+  write_file_atomically(folder / "trajectory_vehicle.csv",
+                        format_pose_covariances(record.vehicle_poses()));
   write_file_atomically(folder / "tilt.csv", format_tilts(record.frames));
   if (!record.keyframes.empty()) write_map(record, folder);
   if (!record.car_mask.empty()) {

@@ -105,8 +105,9 @@ Overlay overlay_of(const DriveRecord& record, const RunOptions& options, const S
                    const CameraFrame& first, const CameraFrame& second) {
   const auto tracker = make_tracker(options.front_end.features);
   const MotionHint hint = hint_of(record, step, first.camera);
-  (void)tracker->advance(tracker->prepare(first.image.view()), hint);
-  const TrackedPair pair = tracker->advance(tracker->prepare(second.image.view()), hint);
+  (void)tracker->advance(tracker->prepare(first.image.view(), first.mask.view()), hint);
+  const TrackedPair pair =
+      tracker->advance(tracker->prepare(second.image.view(), second.mask.view()), hint);
   Overlay overlay{second.image.width(), second.image.height(), jpeg_of(second.image.view()), {}};
   const double bound = options.front_end.consensus.threshold_px / second.camera.focal_px();
   for (const Correspondence& ac : pair.correspondences) {

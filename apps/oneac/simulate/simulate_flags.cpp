@@ -82,6 +82,9 @@ void add_drive_flags(CLI::App& verb, SimulationOptions& options) {
       ->capture_default_str();
   verb.add_option("--gps-noise", options.gps_noise_m, "Std. deviation per axis [m]")
       ->capture_default_str();
+  verb.add_option("--wheel-error", options.wheel_error_percent,
+                  "By which --odometry counts too long a way [%]")
+      ->capture_default_str();
 }
 
 void add_scene_flags(CLI::App& verb, SimulationOptions& options) {
@@ -126,7 +129,7 @@ struct NamedFlag {
   const char *field, *flag;
 };
 /// Of SimulationOptions; those that no flag sets are left out.
-constexpr std::array<NamedFlag, 28> kFlags{{{"frames", "--frames"},
+constexpr std::array<NamedFlag, 29> kFlags{{{"frames", "--frames"},
                                             {"width_px", "--width"},
                                             {"height_px", "--height"},
                                             {"focal_px", "--focal"},
@@ -145,6 +148,7 @@ constexpr std::array<NamedFlag, 28> kFlags{{{"frames", "--frames"},
                                             {"dark_from_s", "--dark-from"},
                                             {"dark_s", "--dark"},
                                             {"gps_noise_m", "--gps-noise"},
+                                            {"wheel_error_percent", "--wheel-error"},
                                             {"truck_gap_m", "--truck-gap"},
                                             {"truck_gap_swing_m", "--truck-gap-swing"},
                                             {"bonnet_share", "--bonnet"},

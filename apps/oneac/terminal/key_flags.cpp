@@ -13,6 +13,9 @@ void add_selection(CLI::App& verb, std::vector<std::string>& settings) {
   add_key(verb, "--features", "front_end.features.extractor", settings,
           "klt, vlfeat, vlfeat+align or sift");
   add_key(verb, "--images-dir", "source.images_dir", settings, "folder of the external images");
+  add_key(verb, "--mask-dir", "source.mask_dir", settings,
+          "folder with a mask per image, called as it is (000003.png): dark where pixels are not "
+          "used");
   add_key(verb, "--camera", "source.camera", settings, "left, right or a sensor label");
   add_key(
       verb, "--calibration", "source.calibration", settings,

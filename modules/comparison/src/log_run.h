@@ -30,7 +30,7 @@ class LogRun {
   /// Maps the wanted pairs on the threads and hands the results on in order.
   template <class Wanted, class Work, class Consume>
   void for_pairs(Wanted&& wanted, Work&& work, Consume&& consume) {
-    PairStream stream(source_, extractor_);
+    PairStream stream(source_, scan_, extractor_);
     const auto next = [&]() -> std::optional<StreamPair> {
       while (hooks_.keep_going()) {
         auto pair = stream.next();

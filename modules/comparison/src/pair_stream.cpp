@@ -1,5 +1,8 @@
 #include "oneac/comparison/pair_stream.h"
 
+#include "oneac/base/error.h"
+#include "oneac/observations/repeat_watch.h"
+
 #include <utility>
 
 namespace oneac {
@@ -7,8 +10,9 @@ namespace oneac {
 PairExtractor::PairExtractor(const FeatureOptions& options)
     : options_(options), prepares_(make_tracker(options)) {}
 
-std::shared_ptr<const FrameFeatures> PairExtractor::prepare(const ImageView& image) const {
-  return prepares_->prepare(image);
+std::shared_ptr<const FrameFeatures> PairExtractor::prepare(const ImageView& image,
+                                                            const ImageView& mask) const {
+  return prepares_->prepare(image, mask);
 }
 
 std::vector<AffineCorrespondence> PairExtractor::correspond(
@@ -30,7 +34,7 @@ std::shared_ptr<const FrameFeatures> StreamImage::features() {
   if (!features_) {
     const CameraFrame frame = source_.load(ticket_);
     camera_ = frame.camera;
-    features_ = extractor_.prepare(frame.image.view());
+    features_ = extractor_.prepare(frame.image.view(), frame.mask.view());
   }
   return features_;
 }
@@ -43,13 +47,15 @@ PairAcs StreamPair::correspond(const PairExtractor& extractor) const {
   return pair;
 }
 
-PairStream::PairStream(const SourceOptions& options, const PairExtractor& extractor)
-    : source_(options), extractor_(extractor) {}
+PairStream::PairStream(const SourceOptions& options, const LogScan& scan,
+                       const PairExtractor& extractor)
+    : source_(options), scan_(scan), extractor_(extractor) {}
 
 std::optional<StreamPair> PairStream::next() {
   while (auto ticket = source_.next()) {
     const bool later = !last_ || ticket->time_s > last_->moment().time_s;
-    if (!later) continue;  // as `oneac run`: out of order, left out
+    // As `oneac run`: out of order, or no image of its own, left out.
+    if (!later || scan_.repeated.count(ticket->index) > 0) continue;
     auto image = std::make_shared<StreamImage>(source_, extractor_, std::move(*ticket));
     auto before = std::exchange(last_, image);
     if (before) return StreamPair{ordinal_++, std::move(before), std::move(image)};
@@ -57,13 +63,59 @@ std::optional<StreamPair> PairStream::next() {
   return std::nullopt;
 }
 
+namespace {
+
+/// Notices images that repeat the one before; decodes those that take as many bytes as it.
+class StoredRepeats {
+ public:
+  explicit StoredRepeats(const RawlogSource& source) : source_(source) {}
+
+  bool repeats(const FrameTicket& ticket) {
+    const std::size_t bytes = source_.stored_bytes(ticket);
+    const bool alike = before_ && bytes == bytes_;
+    if (alike && !loaded_) static_cast<void>(watch_.repeats(image_of(*before_)));
+    const bool repeated = alike && watch_.repeats(image_of(ticket));
+    loaded_ = alike;
+    bytes_ = bytes;
+    before_ = ticket;
+    return repeated;
+  }
+
+ private:
+  /// One that cannot be decoded is like no other; whoever needs it says why.
+  ImageView image_of(const FrameTicket& ticket) {
+    try {
+      image_ = source_.load(ticket).image;
+    } catch (const InputError&) {
+      image_ = GreyImage(1, static_cast<int>(ticket.index % kMostRows) + 1);
+    }
+    return image_.view();
+  }
+
+  static constexpr std::size_t kMostRows = 1000;
+  const RawlogSource& source_;
+  RepeatWatch watch_;
+  GreyImage image_;
+  std::optional<FrameTicket> before_;
+  std::size_t bytes_ = 0;
+  bool loaded_ = false;  ///< the watch has seen the one before
+};
+
+}  // namespace
+
 LogScan scan_log(const SourceOptions& options) {
   RawlogSource source(options);
+  StoredRepeats repeats(source);
   LogScan scan;
   while (const auto ticket = source.next()) {
     if (scan.images.empty()) {
       scan.T_vehicle_cam = source.load(*ticket).T_vehicle_cam;
     } else if (!(ticket->time_s > scan.images.back().time_s)) {
+      continue;
+    }
+    if (repeats.repeats(*ticket)) {
+      if (scan.repeated.empty()) scan.first_repeated = ticket->name;
+      scan.repeated.insert(ticket->index);
       continue;
     }
     scan.images.push_back({ticket->index, ticket->time_s});

@@ -178,6 +178,7 @@ std::string label_from(const Json& json) {
 void take_source(const Json& json, CompareSettings& settings) {
   for (const Json& log : json.at("logs")) settings.logs.push_back(path_from(log));
   settings.source.images_dir = path_from(json.at("images_dir"));
+  if (json.contains("mask_dir")) settings.source.mask_dir = path_from(json["mask_dir"]);
   settings.source.camera = path_from(json.at("camera"));
   settings.source.calibration = path_from(json.at("calibration"));
   if (json.contains("undistorted_fov_deg")) {
@@ -212,6 +213,8 @@ Json to_json(const CompareSettings& settings) {
   json["logs"] = Json::array();
   for (const std::string& log : settings.logs) json["logs"].push_back(path_json(log));
   json["images_dir"] = path_json(settings.source.images_dir.string());
+  const std::string masks = settings.source.mask_dir.string();
+  if (!masks.empty()) json["mask_dir"] = path_json(masks);
   json["camera"] = path_json(settings.source.camera);
   json["calibration"] = path_json(settings.source.calibration);
   if (const double fov = settings.source.undistorted_fov_deg; fov != 0.0) {

@@ -16,14 +16,46 @@ constexpr int kSize = 6;
 constexpr std::size_t kIndices = 2, kTriangle = 21, kAxes = 3;
 constexpr std::size_t kFields = kIndices + kTriangle + kAxes;
 
-std::string header() {
-  std::string line = "index1,index2";
+/// ",c00,c01,…,c55".
+std::string triangle_names() {
+  std::string names;
   for (int row = 0; row < kSize; ++row) {
     for (int column = row; column < kSize; ++column) {
-      line += ",c" + std::to_string(row) + std::to_string(column);
+      names += ",c" + std::to_string(row) + std::to_string(column);
     }
   }
-  return line + ",sigma_x,sigma_y,sigma_z";
+  return names;
+}
+
+std::string header() {
+  return "index1,index2" + triangle_names() + ",sigma_x,sigma_y,sigma_z";
+}
+
+Eigen::Matrix3d cross_matrix(const Eigen::Vector3d& v) {
+  Eigen::Matrix3d m;
+  m << 0.0, -v.z(), v.y(), v.z(), 0.0, -v.x(), -v.y(), v.x(), 0.0;
+  return m;
+}
+
+std::string pose_row_text(const PoseCovarianceRow& row) {
+  const Eigen::Vector3d p = row.T_world_body.translation();
+  Eigen::Quaterniond q(row.T_world_body.linear());
+  if (q.w() < 0.0) q.coeffs() *= -1.0;
+  if (!row.covariance.allFinite() || !row.T_world_body.matrix().allFinite()) {
+    throw std::invalid_argument("PoseCovarianceRow of image " + std::to_string(row.index) +
+                                ": numbers must be finite");
+  }
+  std::string line = exact_fixed_text(row.time_s, kTimeDecimals);
+  for (const double number : {p.x(), p.y(), p.z(), q.w(), q.x(), q.y(), q.z()}) {
+    line += ',' + exact_text(number);
+  }
+  line += ',' + std::to_string(row.index) + (row.metric ? ",1" : ",0");
+  for (int r = 0; r < kSize; ++r) {
+    for (int c = r; c < kSize; ++c) {
+      line += row.has_lengths || c < 3 ? ',' + exact_text(row.covariance(r, c)) : ",";
+    }
+  }
+  return line + '\n';
 }
 
 std::string row_text(const CovarianceRow& row) {
@@ -106,6 +138,27 @@ std::vector<CovarianceRow> read_covariances(const std::filesystem::path& path) {
     rows.push_back(parse_row(Fields(lines[k], path.string())));
   }
   return rows;
+}
+
+std::string format_pose_covariances(const std::vector<PoseCovarianceRow>& rows) {
+  std::string text = "time,x,y,z,qw,qx,qy,qz,index,metric" + triangle_names() + '\n';
+  for (const PoseCovarianceRow& row : rows) text += pose_row_text(row);
+  return text;
+}
+
+// R' = F R Fᵀ and p' = F p + f − R' f of F, f: θ' = F θ, δp' = F δp + [R' f]× θ'.
+PoseCovarianceRow carried_to(const Eigen::Isometry3d& T_fixed, const PoseCovarianceRow& row) {
+  PoseCovarianceRow carried = row;
+  carried.T_world_body = T_fixed * row.T_world_body * T_fixed.inverse();
+  const Eigen::Matrix3d F = T_fixed.linear();
+  const Eigen::Vector3d lever = carried.T_world_body.linear() * T_fixed.translation();
+  Eigen::Matrix<double, 6, 6> J = Eigen::Matrix<double, 6, 6>::Zero();
+  J.topLeftCorner<3, 3>() = F;
+  J.bottomRightCorner<3, 3>() = F;
+  J.bottomLeftCorner<3, 3>() = cross_matrix(lever) * F;
+  const Eigen::Matrix<double, 6, 6> all = J * row.covariance * J.transpose();
+  carried.covariance = 0.5 * (all + all.transpose());
+  return carried;
 }
 
 }  // namespace oneac

@@ -1,10 +1,12 @@
 #include "oneac/evaluation/evaluate.h"
 
 #include "oneac/base/error.h"
+#include "oneac/base/input_file.h"
 #include "oneac/base/number_text.h"
 #include "oneac/evaluation/association.h"
 
 #include <algorithm>
+#include <fstream>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -263,9 +265,24 @@ Evaluation evaluate_run(const std::vector<RelativePoseRow>& rows, const Trajecto
   return evaluation;
 }
 
+namespace {
+
+/// A table of poses: trajectory_camera.csv, or EuRoC's, whose first line is a comment or numbers.
+bool looks_like_pose_table(const std::filesystem::path& path) {
+  if (!fault_of_file(path).empty()) return false;
+  std::ifstream stream(path);
+  std::string line;
+  if (!std::getline(stream, line) || line.empty()) return false;
+  const bool number = line.front() >= '0' && line.front() <= '9';
+  return number || line.front() == '#' || line.rfind("time,", 0) == 0;
+}
+
+}  // namespace
+
 Evaluation evaluate_files(const EvaluationRequest& request) {
-  const bool is_pairs =
-      request.estimate.extension() == ".csv" || looks_like_relative_poses(request.estimate);
+  const bool csv =
+      request.estimate.extension() == ".csv" && !looks_like_pose_table(request.estimate);
+  const bool is_pairs = csv || looks_like_relative_poses(request.estimate);
   return is_pairs ? evaluate_pairs_file(request) : evaluate_trajectory_file(request);
 }
 

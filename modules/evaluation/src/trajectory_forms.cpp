@@ -102,10 +102,13 @@ struct Row {
                    "remove the line or write the file again");
 }
 
+/// Behind commas only the pose is read: what follows it may be anything.
 Row row_of(const TextLine& line, const std::string& file, bool timed) {
+  constexpr std::size_t kPose = 8;
   Row row;
   row.where = where_in(file, line.number);
-  const auto fields = fields_of(line.text);
+  auto fields = fields_of(line.text);
+  if (has_commas(line.text) && fields.size() > kPose) fields.resize(kPose);
   for (std::size_t i = 0; i < fields.size(); ++i) {
     const bool is_time = timed && i == 0;
     const auto value = is_time ? parse_time(fields[i]) : parse_finite(fields[i]);

@@ -2,6 +2,7 @@
 
 #include "evaluation_test_tools.h"
 
+#include "oneac/evaluation/covariance_io.h"
 #include "oneac/test_support/temporary_folder.h"
 
 #include <cmath>
@@ -147,6 +148,18 @@ TEST_F(EvaluatedRun, TumFilesAreAssociatedByTime) {
   const Evaluation evaluation = evaluate_files({estimate, poses});
   expect_exact(evaluation);
   EXPECT_FALSE(evaluation.pair_summary);  // not asked for
+}
+
+TEST_F(EvaluatedRun, TakesTheTablesOfPosesForTrajectories) {
+  give_times();
+  std::vector<PoseCovarianceRow> rows(estimate_.poses.size());
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    rows[i].time_s = estimate_.times[i];
+    rows[i].T_world_body = estimate_.poses[i];
+  }
+  const auto poses = file("truth.tum", format_tum(reference_));
+  const auto table = file("trajectory_camera.csv", format_pose_covariances(rows));
+  expect_exact(evaluate_files({table, poses}));
 }
 
 TEST_F(EvaluatedRun, EquallyLongTrajectoriesAreAssociatedRowByRow) {

@@ -72,11 +72,22 @@ bool FeatureMask::usable(const Eigen::Vector2d& u) const {
   for (const Polygon& polygon : polygons_) {
     if (inside(polygon, u)) return false;
   }
-  if (picture_.empty()) return true;
+  return usable_in(picture_, u);
+}
+
+bool usable_in(const GreyImage& mask, const Eigen::Vector2d& u) {
+  if (mask.empty()) return true;
   const auto column = static_cast<int>(std::lround(u.x()));
   const auto row = static_cast<int>(std::lround(u.y()));
-  if (column < 0 || row < 0 || column >= picture_.width() || row >= picture_.height()) return false;
-  return picture_.row(row)[column] >= kUsed;
+  if (column < 0 || row < 0 || column >= mask.width() || row >= mask.height()) return false;
+  return mask.row(row)[column] >= kUsed;
+}
+
+GreyImage mask_of_image(const ImageView& image, const ImageView& mask) {
+  if (mask.empty()) return {};
+  if (mask.width == image.width && mask.height == image.height) return GreyImage(mask);
+  throw std::invalid_argument("prepare: mask = " + std::to_string(mask.width) + "x" +
+                              std::to_string(mask.height) + ", must be of the image's size");
 }
 
 GreyImage FeatureMask::picture(int width, int height) const {

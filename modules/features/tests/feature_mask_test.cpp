@@ -8,6 +8,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cstdint>
 #include <fstream>
 #include <stdexcept>
 
@@ -70,6 +72,57 @@ TEST(FeatureMask, KeepsCornersAndTracksAway) {
       EXPECT_LT(ac.x2.y(), 200.5);
     }
   }
+}
+
+/// Dark below a row.
+GreyImage dark_from(int row) {
+  GreyImage mask(480, 360, 255);
+  for (int v = row; v < mask.height(); ++v) std::fill_n(mask.row(v), mask.width(), std::uint8_t{0});
+  return mask;
+}
+
+TEST(MaskOfAnImage, KeepsCornersAndTracksAwayInThatImageAlone) {
+  for (const char* extractor : {"klt", "vlfeat", "sift"}) {
+    FeatureOptions options;
+    options.extractor = extractor;
+    const auto tracker = make_tracker(options);
+    View moved;
+    moved.shift = {0.0, 6.0};
+    const GreyImage first = render(Texture(31), View{}), second = render(Texture(31), moved);
+    const GreyImage low = dark_from(300), high = dark_from(200);
+    static_cast<void>(tracker->advance(tracker->prepare(first.view(), low.view()), {}));
+    EXPECT_EQ(tracker->unused().data[299 * 480], 255);
+    EXPECT_EQ(tracker->unused().data[300 * 480], 0);
+    const auto pair = tracker->advance(tracker->prepare(second.view(), high.view()), {});
+    EXPECT_EQ(tracker->unused().data[200 * 480], 0) << "of the road neither";
+    EXPECT_GT(pair.size(), 50U) << extractor;
+    for (const auto& ac : pair.correspondences) {
+      EXPECT_LT(ac.x1.y(), 300.5) << extractor;
+      EXPECT_LT(ac.x2.y(), 200.5) << extractor;
+    }
+    const auto third = tracker->advance(tracker->prepare(first.view()), {});
+    for (const auto& ac : third.correspondences) EXPECT_LT(ac.x1.y(), 200.5) << extractor;
+    EXPECT_EQ(tracker->unused().data[200 * 480], 0) << "the image before had one";
+    static_cast<void>(tracker->advance(tracker->prepare(second.view()), {}));
+    EXPECT_TRUE(tracker->unused().empty()) << "none has any more";
+  }
+}
+
+TEST(MaskOfAnImage, KeepsTracksAwayWhileTheCameraStands) {
+  const auto tracker = make_tracker({});
+  const GreyImage image = render(Texture(31), View{}), mask = dark_from(100);
+  static_cast<void>(tracker->advance(tracker->prepare(image.view()), {}));
+  const auto pair = tracker->advance(tracker->prepare(image.view(), mask.view()), {});
+  ASSERT_TRUE(pair.standing);
+  EXPECT_GT(pair.size(), 20U);
+  for (const auto& ac : pair.correspondences) EXPECT_LT(ac.x2.y(), 100.5);
+}
+
+TEST(MaskOfAnImage, HasItsSize) {
+  const auto tracker = make_tracker({});
+  const GreyImage image = render(Texture(31), View{});
+  EXPECT_THROW(static_cast<void>(tracker->prepare(image.view(), GreyImage(48, 36, 255).view())),
+               std::invalid_argument);
 }
 
 }  // namespace

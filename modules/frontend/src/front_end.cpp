@@ -56,6 +56,7 @@ FrontEnd::FrontEnd(const FrontEndOptions& options)
     : COutputLogger("oneac.FrontEnd"),
       options_(options),
       stereo_(options.scale.source == "stereo"),
+      wheels_(options.scale.source == "wheels"),
       intake_(intake_options(options)),
       profiler_(true, "", true) {
   options_.validate();
@@ -74,7 +75,7 @@ PreparedFrame FrontEnd::prepare(CameraFrame frame) const {
   PreparedFrame prepared;
   {
     const StageTimer timer(prepared.features_ms);
-    prepared.features = tracker_->prepare(frame.image.view());
+    prepared.features = tracker_->prepare(frame.image.view(), frame.mask.view());
   }
   prepared.frame = std::move(frame);
   return prepared;
@@ -100,6 +101,7 @@ FrameResult FrontEnd::process(PreparedFrame prepared) {
   previous_camera_ = frame.camera;
   previous_road_ = road.second;
   prepared.frame.image = {};
+  prepared.frame.mask = {};
   prepared.frame.right = {};
   if (!started_) {
     started_ = true;
@@ -161,8 +163,8 @@ std::optional<FrameResult> FrontEnd::feed(const mrpt::obs::CObservation::Ptr& ob
     add_acceleration(intake.inertial->time_s, *intake.inertial->acceleration,
                      rate ? std::optional(rate->z()) : std::nullopt);
   }
-  if (intake.speed) {
-    add_speed(intake.speed->time_s, intake.speed->speed, intake.speed->sigma);
+  if (const auto& told = wheels_ ? intake.wheels : intake.speed) {
+    add_speed(told->time_s, told->speed, told->sigma);
   }
   if (!intake.frame) return std::nullopt;
   if (!started_ && !intake_.scaling_note().empty()) {

@@ -40,7 +40,7 @@ class Odometry {
 
   /// For the tilt source "imu".
   void add_inertial(const InertialReading& reading) { attitude_.add_inertial(reading); }
-  /// Speed over ground, for the scale source "gps".
+  /// Speed over ground, for the scale sources "gps" and "wheels".
   void add_speed(const SpeedReading& told) { scale_.add_speed(told); }
 
   [[nodiscard]] const Attitude& attitude() const { return attitude_; }

@@ -148,5 +148,84 @@ TEST(ScaleFilter, IgnoresNumbersThatAreNone) {
   EXPECT_FALSE(filter.is_metric());
 }
 
+/// Wheels on a map whose true scale is 1: keyframes are 2 m apart.
+class ByWheels : public ::testing::Test {
+ protected:
+  static ScaleOptions options() {
+    ScaleOptions options;
+    options.source = "wheels";
+    return options;
+  }
+  /// Wheels tell ways that are so many times too long.
+  void tell(double too_long, int times) {
+    for (int i = 0; i < times; ++i) {
+      filter_.drift(2.0, 0.0);
+      map_ *= filter_.correct(too_long / map_, 0.02);
+    }
+  }
+  /// The scale that the map has, and should not.
+  [[nodiscard]] double error() const { return std::abs(std::log(map_)); }
+
+  ScaleFilter filter_{options()};
+  double map_ = 0.2;
+};
+
+TEST_F(ByWheels, IsMetricOnlyWhenMeasurementsHaveAgreedOverAWay) {
+  tell(1.0, 10);
+  EXPECT_FALSE(filter_.is_metric());
+  tell(1.0, 1);
+  EXPECT_TRUE(filter_.is_metric());
+  EXPECT_LT(error(), 1e-9);
+}
+
+TEST_F(ByWheels, IsNeverSurerThanTheSizeOfItsTyres) {
+  tell(1.0, 2000);
+  EXPECT_TRUE(filter_.is_metric());
+  EXPECT_GE(filter_.uncertainty(), options().wheel_uncertainty);
+  EXPECT_LT(filter_.uncertainty(), 1.2 * options().wheel_uncertainty);
+}
+
+TEST_F(ByWheels, IsDoubtedWhileWheelsSpinAndNotMovedByThem) {
+  tell(1.0, 30);
+  ASSERT_TRUE(filter_.is_metric());
+  tell(1.8, 2);
+  EXPECT_TRUE(filter_.is_metric()) << "a slip";
+  tell(1.8, 30);
+  EXPECT_FALSE(filter_.is_metric());
+  EXPECT_LT(error(), 0.02);
+  tell(1.0, 14);
+  EXPECT_TRUE(filter_.is_metric());
+  EXPECT_LT(error(), 0.02);
+}
+
+TEST_F(ByWheels, IsNotLedAwayByAnErrorThatComesAndGoesGently) {
+  tell(1.0, 30);
+  for (int i = 0; i <= 40; ++i) {
+    tell(1.0 - 0.8 * std::sin(i * M_PI / 40), 1);
+    if (filter_.is_metric()) {
+      EXPECT_LT(error(), 3.0 * filter_.uncertainty()) << i;
+    }
+  }
+}
+
+TEST_F(ByWheels, TakesNoScaleOfWheelsThatAreOfTwoMinds) {
+  for (int i = 0; i < 60; ++i) {
+    tell(i % 3 == 0 ? 1.0 : 1.6, 1);
+    EXPECT_FALSE(filter_.is_metric());
+  }
+}
+
+TEST_F(ByWheels, HasToBeAgreedUponAgainWhenTheMapBeginsAnew) {
+  tell(1.0, 30);
+  filter_.lose();
+  map_ = 3.0;
+  EXPECT_FALSE(filter_.is_metric());
+  tell(1.0, 10);
+  EXPECT_FALSE(filter_.is_metric());
+  tell(1.0, 2);
+  EXPECT_TRUE(filter_.is_metric());
+  EXPECT_LT(error(), 1e-9);
+}
+
 }  // namespace
 }  // namespace oneac

@@ -214,6 +214,7 @@ TEST(PositionCovariances, AgreeWithChainsOfDisturbedSteps) {
     return Eigen::Vector3d(sigma * normal(draw), sigma * normal(draw), sigma * normal(draw));
   };
   Eigen::Matrix3d scatter = Eigen::Matrix3d::Zero();
+  Matrix6 of_pose = Matrix6::Zero();
   for (int trial = 0; trial < kTrials; ++trial) {
     Eigen::Isometry3d T = Eigen::Isometry3d::Identity();
     const double scale_of_turns = 0.01 * normal(draw);
@@ -227,9 +228,21 @@ TEST(PositionCovariances, AgreeWithChainsOfDisturbedSteps) {
     }
     const Eigen::Vector3d error = T.translation() - frames.back().T_first_cam.translation();
     scatter += error * error.transpose() / kTrials;
+    const Eigen::AngleAxisd turned(T.linear() * frames.back().T_first_cam.linear().transpose());
+    Eigen::Matrix<double, 6, 1> both;
+    both << turned.angle() * turned.axis(), error;
+    of_pose += both * both.transpose() / kTrials;
   }
   const Eigen::Matrix3d predicted = position_covariances(frames, 0.0).back();
   EXPECT_LT((scatter - predicted).norm(), 0.1 * predicted.norm()) << scatter << "\n\n" << predicted;
+  const Matrix6 pose = pose_covariances(frames, 0.0).back();
+  const auto off = [&](int row, int column) {  // [-] of a block of 3 by 3
+    const Eigen::Matrix3d error = of_pose.block<3, 3>(row, column) - pose.block<3, 3>(row, column);
+    return error.norm() /
+           std::sqrt(pose.block<3, 3>(row, row).trace() * pose.block<3, 3>(column, column).trace());
+  };
+  EXPECT_LT(off(0, 0), 0.1) << of_pose << "\n\n" << pose;
+  EXPECT_LT(off(0, 3), 0.1) << of_pose << "\n\n" << pose;
 }
 
 }  // namespace

@@ -13,7 +13,7 @@
 namespace oneac {
 namespace {
 
-constexpr const char* kAnotherScale = "set front_end.scale.source to height, gps or none";
+constexpr const char* kAnotherScale = "set front_end.scale.source to height, gps, wheels or none";
 
 PinholeCamera calibration_of(const CameraDescription& first, const CameraReaderOptions& options,
                              const std::string& where) {

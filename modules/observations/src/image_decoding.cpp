@@ -117,6 +117,51 @@ std::size_t portable_map_pixels(const Bytes& bytes) {
   return sides[0] * sides[1];
 }
 
+// Of a TIFF, in either order of bytes: what its first directory says. Nothing without a directory.
+std::optional<std::size_t> tiff_pixels(const Bytes& bytes) {
+  constexpr std::size_t kEntry = 12, kWidth = 256, kHeight = 257, kShort = 3;
+  const bool big = begins_with(bytes, std::string_view("MM\0*", 4));
+  if (!big && !begins_with(bytes, std::string_view("II*\0", 4))) return std::nullopt;
+  const auto number = [&](std::size_t at, std::size_t count) {
+    if (big) return big_endian(bytes, at, count);
+    std::size_t value = 0;
+    for (std::size_t i = count; i-- > 0;) {
+      value = value * 256U + (at + i < bytes.size() ? bytes[at + i] : 0U);
+    }
+    return value;
+  };
+  const std::size_t directory = number(4, 4);
+  if (directory + 2 > bytes.size()) return kLargestPixels + 1;
+  std::size_t width = 0, height = 0;
+  for (std::size_t i = 0; i < number(directory, 2); ++i) {
+    const std::size_t at = directory + 2 + kEntry * i;
+    if (at + kEntry > bytes.size()) break;
+    const std::size_t value = number(at + 8, number(at + 2, 2) == kShort ? 2 : 4);
+    if (number(at, 2) == kWidth) width = value;
+    if (number(at, 2) == kHeight) height = value;
+  }
+  return width * height;
+}
+
+// Of a WebP of one of its three kinds; nothing for another.
+std::optional<std::size_t> webp_pixels(const Bytes& bytes) {
+  constexpr std::size_t kKind = 12, kSide = 0x3fff;  // 14 bits
+  if (!begins_with(bytes, "RIFF") || bytes.size() < 30) return std::nullopt;
+  if (std::memcmp(bytes.data() + 8, "WEBP", 4) != 0) return std::nullopt;
+  const std::string_view kind(reinterpret_cast<const char*>(bytes.data() + kKind), 4);
+  if (kind == "VP8 ") {
+    const std::size_t sides = little_endian(bytes, 26);
+    return (sides & kSide) * (sides >> 16U & kSide);
+  }
+  if (kind == "VP8L") {
+    const std::size_t sides = little_endian(bytes, 21);
+    return ((sides & kSide) + 1) * ((sides >> 14U & kSide) + 1);
+  }
+  if (kind != "VP8X") return std::nullopt;
+  const auto side = [&](std::size_t at) { return (little_endian(bytes, at) & 0xffffffU) + 1; };
+  return side(24) * side(27);
+}
+
 // What an image says of its size: a few damaged bytes ask for gigabytes. Nothing for a format that
 // is not read: OpenCV has decoders for many, each with faults of its own.
 std::optional<std::size_t> claimed_pixels(const Bytes& bytes) {
@@ -132,7 +177,8 @@ std::optional<std::size_t> claimed_pixels(const Bytes& bytes) {
   const bool portable_map = bytes.size() > 2 && bytes[0] == 'P' && bytes[1] >= '2' &&
                             bytes[1] <= '6' && std::isspace(bytes[2]) != 0;
   if (portable_map) return portable_map_pixels(bytes);
-  return std::nullopt;
+  if (const auto tiff = tiff_pixels(bytes)) return tiff;
+  return webp_pixels(bytes);
 }
 
 GreyImage decoded(const Bytes& bytes, const std::string& name, int flags) {
@@ -140,7 +186,7 @@ GreyImage decoded(const Bytes& bytes, const std::string& name, int flags) {
   if (is_cut_jpeg(bytes)) throw InputError(name, "the image ends early", kCopyImage);
   const auto pixel_count = claimed_pixels(bytes);
   if (!pixel_count) {
-    throw InputError(name, "the image cannot be decoded: no JPEG, PNG, BMP, PGM or PPM",
+    throw InputError(name, "the image cannot be decoded: no JPEG, PNG, BMP, PGM, PPM, TIFF or WebP",
                      kCopyImage);
   }
   if (*pixel_count > kLargestPixels) {

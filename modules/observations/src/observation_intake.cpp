@@ -8,6 +8,7 @@
 #include <mrpt/img/CImage.h>
 #include <mrpt/obs/CObservationGPS.h>
 #include <mrpt/obs/CObservationIMU.h>
+#include <mrpt/obs/CObservationOdometry.h>
 
 #include <algorithm>
 #include <filesystem>
@@ -44,9 +45,9 @@ std::string short_name(const CameraView& view, const std::string& where) {
 const char* to_string(PassedOver reason) {
   switch (reason) {
     case PassedOver::kOtherClass:
-      return "neither an image nor a reading of IMU or GPS";
+      return "neither an image nor a reading of IMU, GPS or wheels";
     case PassedOver::kOtherSensor:
-      return "of another camera, IMU or GPS receiver than the one in use";
+      return "of another camera, IMU, GPS receiver or odometer than the one in use";
     case PassedOver::kMissing:
       return "an image that is not there";
     case PassedOver::kOutOfOrder:
@@ -71,6 +72,9 @@ Intake ObservationIntake::take(const CObservation& observation) {
   }
   if (dynamic_cast<const CObservationGPS*>(&observation) != nullptr) {
     return take_speed(observation);
+  }
+  if (dynamic_cast<const mrpt::obs::CObservationOdometry*>(&observation) != nullptr) {
+    return take_wheels(observation);
   }
   return take_image(observation);
 }
@@ -109,6 +113,17 @@ Intake ObservationIntake::take_speed(const CObservation& observation) {
   intake.speed = speeds_.add(*reading);
   if (!intake.speed) return pass(PassedOver::kNotNeeded);
   ++counts_.speeds;
+  return intake;
+}
+
+Intake ObservationIntake::take_wheels(const CObservation& observation) {
+  if (!is_stamped(observation)) return pass(PassedOver::kUnstamped);
+  const WheelFollower::Taken taken = wheels_.take(observation);
+  if (taken.use == WheelFollower::Use::kOtherSensor) return pass(PassedOver::kOtherSensor);
+  if (taken.use == WheelFollower::Use::kUnusable) return pass(PassedOver::kUnusable);
+  ++counts_.wheels;
+  Intake intake;
+  intake.wheels = taken.speed;
   return intake;
 }
 

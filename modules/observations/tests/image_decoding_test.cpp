@@ -9,6 +9,7 @@
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <fstream>
 #include <iterator>
@@ -48,6 +49,47 @@ TEST_F(ImageDecoding, ConvertsEveryKindToTheSameGrey) {
   EXPECT_TRUE(same(to_grey(colour, "c"), grey));
   EXPECT_TRUE(same(to_grey(with_alpha, "a"), grey));
   EXPECT_TRUE(same(to_grey(wide, "w"), grey));
+}
+
+std::vector<std::uint8_t> bytes_of(const std::filesystem::path& file) {
+  std::ifstream in(file, std::ios::binary);
+  return {std::istreambuf_iterator<char>(in), {}};
+}
+
+TEST_F(ImageDecoding, ReadsTiffAndWebp) {
+  const cv::Mat grey = test::ramp(40);
+  cv::Mat wide, colour;
+  grey.convertTo(wide, CV_16U, 256.0);
+  cv::cvtColor(grey, colour, cv::COLOR_GRAY2BGR);
+  EXPECT_TRUE(same(decode_grey_file(save("grey.tif", grey)), grey));
+  EXPECT_TRUE(same(decode_grey_file(save("wide.tiff", wide)), grey));
+  const auto lossless = folder_.path() / "colour.webp";
+  cv::imwrite(lossless.string(), colour, {cv::IMWRITE_WEBP_QUALITY, 101});
+  EXPECT_TRUE(same(decode_grey_file(lossless), grey));
+  const GreyImage lossy = decode_grey_file(save("lossy.webp", colour));
+  EXPECT_EQ(lossy.width(), grey.cols);
+  EXPECT_EQ(lossy.height(), grey.rows);
+}
+
+TEST_F(ImageDecoding, RefusesTiffAndWebpThatClaimAnAbsurdSize) {
+  auto tiff = bytes_of(save("grey.tif", test::ramp(40)));
+  const std::size_t directory = tiff[4] + 256U * tiff[5] + 65536U * tiff[6];
+  for (std::size_t at = directory + 2; at + 12 <= tiff.size(); at += 12) {
+    if (tiff[at + 1] != 1 || tiff[at] > 1) continue;  // width or height, 256 or 257
+    tiff[at + 2] = 4;                                 // LONG
+    tiff[at + 10] = 15;
+  }
+  const auto told = [](const std::vector<std::uint8_t>& bytes) {
+    return test::input_error([&] { static_cast<void>(decode_grey_bytes(bytes, "x")); });
+  };
+  EXPECT_NE(told(tiff).find("absurd size"), std::string::npos) << told(tiff);
+  std::vector<std::uint8_t> webp(40, 0);
+  const std::string head("RIFF....WEBPVP8X");
+  std::copy(head.begin(), head.end(), webp.begin());
+  std::fill(webp.begin() + 24, webp.begin() + 30, std::uint8_t{255});
+  EXPECT_NE(told(webp).find("absurd size"), std::string::npos) << told(webp);
+  webp[15] = 'Y';
+  EXPECT_NE(told(webp).find("no JPEG"), std::string::npos) << told(webp);
 }
 
 TEST_F(ImageDecoding, TakesAnImageOfALogForWhatMrptMakesOfIt) {

@@ -16,6 +16,9 @@
 #include <opencv2/videoio.hpp>
 
 #include <cmath>
+#include <fstream>
+#include <iterator>
+#include <map>
 
 namespace oneac {
 namespace {
@@ -109,6 +112,81 @@ TEST_F(ImportImages, ScalesACalibrationOfTheSameAspectAndSaysSo) {
   write_text(options_.calibration, "1 PINHOLE 128 72 100 102 64.0 48.0\n");
   EXPECT_NE(complaint_of([&] { import_image_folder(options_); }).find("is for 128x72"),
             std::string::npos);
+}
+
+/// A JPEG with the EXIF text of the given tags of its image directory.
+void write_exif(const fs::path& image, const std::map<int, std::string>& texts) {
+  const auto number = [](std::size_t value, int bytes) {
+    std::string text;
+    for (int i = 0; i < bytes; ++i) text += static_cast<char>(value >> (8 * i) & 0xff);
+    return text;
+  };
+  // One entry that leads to the image's directory, which is followed by its texts.
+  std::string tiff = "II*" + number(0, 1) + number(8, 4) + number(1, 2) + number(0x8769, 2) +
+                     number(4, 2) + number(1, 4) + number(26, 4) + number(0, 4);
+  std::string entries, behind;
+  const std::size_t data = tiff.size() + 2 + 12 * texts.size() + 4;
+  for (const auto& [tag, text] : texts) {
+    const std::string with_end = text + number(0, 1);
+    entries += number(static_cast<std::size_t>(tag), 2) + number(2, 2) + number(with_end.size(), 4);
+    if (with_end.size() <= 4) {
+      entries += with_end + std::string(4 - with_end.size(), char{0});
+    } else {
+      entries += number(data + behind.size(), 4);
+      behind += with_end;
+    }
+  }
+  tiff += number(texts.size(), 2) + entries + number(0, 4) + behind;
+  const std::string content = "Exif" + number(0, 2) + tiff;
+  const std::size_t length = content.size() + 2;
+  std::string segment = {static_cast<char>(0xff), static_cast<char>(0xe1)};
+  segment += static_cast<char>(length >> 8 & 0xff);
+  segment += static_cast<char>(length & 0xff);
+  test::write_image(image);
+  std::ifstream in(image, std::ios::binary);
+  std::string jpeg{std::istreambuf_iterator<char>(in), {}};
+  in.close();
+  std::ofstream(image, std::ios::binary) << jpeg.insert(2, segment + content);
+}
+
+constexpr int kTaken = 0x9003, kSubSecond = 0x9291, kZone = 0x9011;
+
+TEST_F(ImportImages, StampsByTheirExifTimes) {
+  for (int i = 0; i < 3; ++i) {
+    write_exif(options_.source / ("DSC0" + std::to_string(i) + ".JPG"),
+               {{kTaken, "2024:05:01 10:00:0" + std::to_string(i / 2)},
+                {kSubSecond, i == 1 ? "5" : "25"}});
+  }
+  EXPECT_TRUE(notes(import_image_folder(options_), "EXIF times, whose time zone is not told"));
+  expect_times({1714557600.25, 1714557600.5, 1714557601.25});
+}
+
+TEST_F(ImportImages, KnowsTheZoneThatExifTells) {
+  for (int i = 0; i < 2; ++i) {
+    write_exif(options_.source / ("p" + std::to_string(i) + ".jpg"),
+               {{kTaken, "2024:05:01 12:00:0" + std::to_string(i)}, {kZone, "+02:00"}});
+  }
+  EXPECT_FALSE(notes(import_image_folder(options_), "time zone"));
+  expect_times({1714557600.0, 1714557601.0});
+}
+
+TEST_F(ImportImages, RefusesExifTimesOfWholeSecondsThatImagesShare) {
+  for (int i = 0; i < 2; ++i) {
+    write_exif(options_.source / ("p" + std::to_string(i) + ".jpg"),
+               {{kTaken, "2024:05:01 12:00:00"}});
+  }
+  const std::string shared = complaint_of([&] { import_image_folder(options_); });
+  EXPECT_NE(shared.find("a whole second only as EXIF time of p1.jpg"), std::string::npos) << shared;
+  write_exif(options_.source / "p1.jpg", {{kTaken, "0000:00:00 00:00:00"}});
+  const std::string none = complaint_of([&] { import_image_folder(options_); });
+  EXPECT_NE(none.find("no EXIF time of p1.jpg"), std::string::npos) << none;
+  EXPECT_NE(none.find("--fps"), std::string::npos) << none;
+}
+
+TEST_F(ImportImages, TakesTiffAndWebp) {
+  options_.fps = 10.0;
+  make_images({"1.tif", "2.tiff", "3.webp"});
+  EXPECT_EQ(import_image_folder(options_).images, 3U);
 }
 
 TEST_F(ImportImages, StampsByTheTimesInTheirNames) {

@@ -337,9 +337,9 @@ TEST_F(ImportKitti, SaysWhichImagesItDoesNotRead) {
   make_sequence();
   for (const char* name : {"000000", "000001", "000002"}) {
     const fs::path image = options_.source / "image_0" / name;
-    fs::rename(image.string() + ".png", image.string() + ".tif");
+    fs::rename(image.string() + ".png", image.string() + ".heic");
   }
-  EXPECT_NE(complaint().find("3 .tif"), std::string::npos) << complaint();
+  EXPECT_NE(complaint().find("3 .heic"), std::string::npos) << complaint();
   EXPECT_NE(complaint().find("convert them"), std::string::npos) << complaint();
 }
 

@@ -67,6 +67,7 @@ void SimulationOptions::validate() const {
   require_within("dark_from_s", dark_from_s, 0.0, 1e6);
   require_within("dark_s", dark_s, 0.0, 1e6);
   require_within("gps_noise_m", gps_noise_m, 0.0, 100.0);
+  require_within("wheel_error_percent", wheel_error_percent, -50.0, 50.0);
   require_within("truck_gap_m", truck_gap_m, 2.0, 100.0);
   require_within("truck_gap_swing_m", truck_gap_swing_m, 0.0, truck_gap_m - 1.0);
   require_within("bonnet_share", bonnet_share, 0.0, 0.5);

@@ -6,6 +6,7 @@
 #include "random_numbers.h"
 #include "street_renderer.h"
 #include "suspension.h"
+#include "wheel_counter.h"
 
 #include "oneac/geometry/angles.h"
 
@@ -28,6 +29,7 @@ namespace {
 constexpr double kGravity = 9.80665;          // [m/s²]
 constexpr double kGpsRate = 1.0;              // [Hz] Málaga's receiver
 constexpr double kImuRate = 100.0;            // [Hz] Málaga's unit
+constexpr double kWheelRate = 50.0;           // [Hz] of a CAN bus
 constexpr double kGpsSpeedNoise = 0.05;       // [m/s] Doppler
 constexpr double kGpsCourseNoise = 0.3;       // [deg]
 constexpr double kAccelerometerNoise = 0.05;  // [m/s²]
@@ -242,6 +244,19 @@ std::vector<SimulatedImu> StreetSimulator::imu() const {
   std::vector<SimulatedImu> readings;
   const auto last = static_cast<int>(duration(impl_->options) * kImuRate + 1e-9);
   for (int i = 0; i <= last; ++i) readings.push_back(impl_->imu_at(i / kImuRate, random));
+  return readings;
+}
+
+std::vector<SimulatedWheels> StreetSimulator::wheels() const {
+  std::vector<SimulatedWheels> readings;
+  simulation::WheelCounter counter(1.0 + impl_->options.wheel_error_percent / 100.0);
+  const auto last = static_cast<int>(duration(impl_->options) * kWheelRate + 1e-9);
+  const double start = impl_->route.at(0.0).heading;
+  for (int i = 0; i <= last; ++i) {
+    const double time_s = i / kWheelRate;
+    counter.add(impl_->route.at(time_s), 1.0 / kWheelRate);
+    readings.push_back({time_s, counter.position(start), counter.heading() - start});
+  }
   return readings;
 }
 

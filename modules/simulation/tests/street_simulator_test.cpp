@@ -270,5 +270,28 @@ TEST(StreetSimulator, RefusesFramesBeyondItsEnd) {
   EXPECT_THROW((void)shared_drive().frame(shared_drive().size()), std::out_of_range);
 }
 
+TEST(StreetSimulator, WheelsCountTheWayWithTheErrorOfTheirSize) {
+  SimulationOptions options;
+  options.frames = 60;
+  options.stop_s = 0.0;
+  for (const double percent : {0.0, 4.0}) {
+    options.wheel_error_percent = percent;
+    const StreetSimulator drive(options);
+    double way = 0.0, told = 0.0;
+    for (std::size_t i = 1; i < drive.size(); ++i) {
+      way += (drive.state(i).T_world_vehicle.translation() -
+              drive.state(i - 1).T_world_vehicle.translation())
+                 .norm();
+    }
+    const auto wheels = drive.wheels();
+    for (std::size_t i = 1; i < wheels.size(); ++i) {
+      told += (wheels[i].position_m - wheels[i - 1].position_m).norm();
+    }
+    EXPECT_NEAR(told / way, 1.0 + percent / 100.0, 0.005);
+    EXPECT_NEAR(wheels[1].time_s, 0.02, 1e-12);
+    EXPECT_GT(wheels.back().position_m.x(), 10.0) << "ahead at the start";
+  }
+}
+
 }  // namespace
 }  // namespace oneac

@@ -15,6 +15,7 @@ namespace oneac::internal {
 class KltFrame : public FrameFeatures {
  public:
   ImagePyramid pyramid;
+  GreyImage mask;  ///< of this image alone
   CornerGrid corners;
 };
 

@@ -36,12 +36,15 @@ KltTracker::KltTracker(const FeatureOptions& options)
       rematcher_(options),
       static_points_(options.klt.static_frames) {}
 
-std::shared_ptr<const FrameFeatures> KltTracker::prepare(const ImageView& image) const {
+std::shared_ptr<const FrameFeatures> KltTracker::prepare(const ImageView& image,
+                                                         const ImageView& mask) const {
   mask_.require_size(image.width, image.height);
   auto frame = std::make_shared<KltFrame>();
   frame->pyramid = build_pyramid(image, options_.klt.levels);
-  frame->corners = find_corners(frame->pyramid, cell_px(frame->pyramid),
-                                [this](const Eigen::Vector2d& u) { return mask_.usable(u); });
+  frame->mask = mask_of_image(image, mask);
+  frame->corners = find_corners(
+      frame->pyramid, cell_px(frame->pyramid),
+      [&](const Eigen::Vector2d& u) { return mask_.usable(u) && usable_in(frame->mask, u); });
   return frame;
 }
 
@@ -53,12 +56,13 @@ TrackedPair KltTracker::advance(std::shared_ptr<const FrameFeatures> now, const 
     throw std::invalid_argument("advance: the image has another size than the one before");
   }
   learn_car(*frame, hint);
+  take_masks(*frame);
   TrackedPair pair;
   if (!anchor_) {
     frame_ = 0;
   } else {
     ++frame_;
-    if (stands(*frame)) return stand();
+    if (stands(*frame)) return stand(*frame);
     const MotionPrediction motion(hint);
     pair = take(*frame, motion, follow(frame, motion));
   }
@@ -78,16 +82,22 @@ void KltTracker::learn_car(const KltFrame& now, const MotionHint& hint) {
       tracks_.end());
 }
 
+void KltTracker::take_masks(const KltFrame& now) {
+  masked_ = anchor_ ? darker(now.mask, anchor_->mask) : now.mask;
+  if (!masked_.empty()) masked_ = darker(std::move(masked_), unused_);
+}
+
 bool KltTracker::stands(const KltFrame& now) const {
   // Where most tracks are the car's own, they stand whatever the car does.
   if (shows_travel()) return false;
   return is_standing(tracks_, anchor_->pyramid, now.pyramid, options_.klt.standing_px);
 }
 
-TrackedPair KltTracker::stand() {
+TrackedPair KltTracker::stand(const KltFrame& now) {
   TrackedPair pair;
   pair.standing = true;
   for (KltTrack& track : tracks_) {
+    if (!usable_in(now.mask, track.u)) continue;
     PatchMatch same;
     same.warp.centre = track.u;
     pair.correspondences.push_back(correspondence_of(track, same));
@@ -119,7 +129,7 @@ void KltTracker::add_rematches(const std::shared_ptr<const KltFrame>& now, Match
   }
   for (const Rematch& again : rematcher_.match(anchor_, now)) {
     const Eigen::Vector2d& u2 = again.match.warp.centre;
-    if (!usable(again.u1) || !taken.is_free(u2, options_.klt.min_distance_px)) continue;
+    if (!usable(*anchor_, again.u1) || !taken.is_free(u2, options_.klt.min_distance_px)) continue;
     taken.add(u2);
     KltTrack track;
     track.id = next_id_++;
@@ -161,7 +171,7 @@ TrackedPair KltTracker::take(const KltFrame& now, const MotionPrediction& motion
 }
 
 bool KltTracker::holds(KltTrack& track, const KltFrame& now, const PatchMatch& match) const {
-  if (!usable(match.warp.centre)) return false;
+  if (!usable(now, match.warp.centre)) return false;
   track.A_now_reference = match.warp.M * track.A_now_reference;
   track.reference_is_here = false;
   const double scale = std::sqrt(std::abs(track.A_now_reference.determinant()));
@@ -180,8 +190,8 @@ bool KltTracker::holds(KltTrack& track, const KltFrame& now, const PatchMatch& m
   return true;
 }
 
-bool KltTracker::usable(const Eigen::Vector2d& u) const {
-  return mask_.usable(u) && car_mask_.usable(u);
+bool KltTracker::usable(const KltFrame& frame, const Eigen::Vector2d& u) const {
+  return mask_.usable(u) && car_mask_.usable(u) && usable_in(frame.mask, u);
 }
 
 void KltTracker::start_track(const KltFrame& now, const Corner& corner) {

@@ -25,7 +25,8 @@ class KltTracker : public AcTracker {
  public:
   explicit KltTracker(const FeatureOptions& options);
 
-  [[nodiscard]] std::shared_ptr<const FrameFeatures> prepare(const ImageView& image) const override;
+  [[nodiscard]] std::shared_ptr<const FrameFeatures> prepare(
+      const ImageView& image, const ImageView& mask = {}) const override;
   [[nodiscard]] TrackedPair advance(std::shared_ptr<const FrameFeatures> now,
                                     const MotionHint& hint) override;
   void reset() override;
@@ -37,15 +38,19 @@ class KltTracker : public AcTracker {
     return options_.mask.learn && car_mask_.shows_travel();
   }
   [[nodiscard]] bool car_mask_refused() const override { return car_mask_.is_refused(); }
-  [[nodiscard]] ImageView unused() const override { return unused_.view(); }
+  [[nodiscard]] ImageView unused() const override {
+    return masked_.empty() ? unused_.view() : masked_.view();
+  }
 
  private:
   using Matches = std::vector<std::optional<PatchMatch>>;
 
   /// Looks for the car in the image; tracks on what is known to be the car end.
   void learn_car(const KltFrame& now, const MotionHint& hint);
+  /// Takes the masks of this image and of the one before into what is not used.
+  void take_masks(const KltFrame& now);
   [[nodiscard]] bool stands(const KltFrame& now) const;
-  [[nodiscard]] TrackedPair stand();
+  [[nodiscard]] TrackedPair stand(const KltFrame& now);
   [[nodiscard]] Matches follow(const std::shared_ptr<const KltFrame>& now,
                                const MotionPrediction& motion);
   /// Whether hardly any track was found although both images have texture.
@@ -55,8 +60,8 @@ class KltTracker : public AcTracker {
   [[nodiscard]] TrackedPair take(const KltFrame& now, const MotionPrediction& motion,
                                  const Matches& matches);
   [[nodiscard]] bool holds(KltTrack& track, const KltFrame& now, const PatchMatch& match) const;
-  /// Neither masked by the user nor known to be the car.
-  [[nodiscard]] bool usable(const Eigen::Vector2d& u) const;
+  /// Neither masked by the user, in this image or in all, nor known to be the car.
+  [[nodiscard]] bool usable(const KltFrame& frame, const Eigen::Vector2d& u) const;
   void replenish(const KltFrame& now);
   void start_track(const KltFrame& now, const Corner& corner);
   [[nodiscard]] int cell_px(const ImagePyramid& pyramid) const;
@@ -66,6 +71,7 @@ class KltTracker : public AcTracker {
   FeatureMask mask_;
   CarMask car_mask_;
   GreyImage unused_;  ///< by both
+  GreyImage masked_;  ///< by the masks of single images, too; empty without them
   Rematcher rematcher_;
   std::shared_ptr<const KltFrame> anchor_;
   std::vector<KltTrack> tracks_;  ///< oldest first

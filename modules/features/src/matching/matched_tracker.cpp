@@ -28,18 +28,21 @@ MatchedTracker::MatchedTracker(const FeatureOptions& options,
                                std::unique_ptr<AcExtractor> extractor, bool align)
     : options_(options), mask_(options.mask), extractor_(std::move(extractor)), align_(align) {}
 
-std::shared_ptr<const FrameFeatures> MatchedTracker::prepare(const ImageView& image) const {
+std::shared_ptr<const FrameFeatures> MatchedTracker::prepare(const ImageView& image,
+                                                             const ImageView& mask) const {
   mask_.require_size(image.width, image.height);
   auto frame = std::make_shared<Frame>();
   frame->width = image.width;
   frame->height = image.height;
+  frame->mask = mask_of_image(image, mask);
   frame->features = extractor_->prepare(image);
   if (align_) frame->pyramid = build_pyramid(image, kAlignmentLevels);
   return frame;
 }
 
-bool MatchedTracker::usable(const AffineCorrespondence& ac) const {
-  return mask_.usable(ac.x1) && mask_.usable(ac.x2);
+bool MatchedTracker::usable(const AffineCorrespondence& ac, const Frame& now) const {
+  return mask_.usable(ac.x1) && mask_.usable(ac.x2) && usable_in(last_->mask, ac.x1) &&
+         usable_in(now.mask, ac.x2);
 }
 
 std::uint64_t MatchedTracker::carry_on(const AffineCorrespondence& matched,
@@ -55,12 +58,14 @@ TrackedPair MatchedTracker::advance(std::shared_ptr<const FrameFeatures> now, co
   if (!frame) throw std::invalid_argument("advance: the frame was not prepared by this tracker");
   TrackedPair pair;
   if (!last_) unused_ = mask_.picture(frame->width, frame->height);
+  masked_ = last_ ? darker(frame->mask, last_->mask) : frame->mask;
+  if (!masked_.empty()) masked_ = darker(std::move(masked_), unused_);
   if (last_) {
     const std::map<Place, std::uint64_t> known = std::move(tracks_);
     tracks_.clear();
     PatchFlow flow(last_->pyramid, frame->pyramid, options_.klt);
     for (const auto& ac : extractor_->correspond(*last_->features, *frame->features)) {
-      if (!usable(ac)) continue;
+      if (!usable(ac, *frame)) continue;
       AffineCorrespondence aligned = ac;
       AlignmentQuality quality;
       if (align_) {

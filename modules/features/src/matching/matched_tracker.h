@@ -20,21 +20,25 @@ class MatchedTracker : public AcTracker {
  public:
   MatchedTracker(const FeatureOptions& options, std::unique_ptr<AcExtractor> extractor, bool align);
 
-  [[nodiscard]] std::shared_ptr<const FrameFeatures> prepare(const ImageView& image) const override;
+  [[nodiscard]] std::shared_ptr<const FrameFeatures> prepare(
+      const ImageView& image, const ImageView& mask = {}) const override;
   [[nodiscard]] TrackedPair advance(std::shared_ptr<const FrameFeatures> now,
                                     const MotionHint& hint) override;
   void reset() override;
-  [[nodiscard]] ImageView unused() const override { return unused_.view(); }
+  [[nodiscard]] ImageView unused() const override {
+    return masked_.empty() ? unused_.view() : masked_.view();
+  }
 
  private:
   struct Frame : FrameFeatures {
     std::shared_ptr<const FrameFeatures> features;
     ImagePyramid pyramid;       ///< when aligned
+    GreyImage mask;             ///< of this image alone
     int width = 0, height = 0;  ///< [px]
   };
   using Place = std::pair<double, double>;  ///< a feature's centre: the same bytes in both pairs
 
-  [[nodiscard]] bool usable(const AffineCorrespondence& ac) const;
+  [[nodiscard]] bool usable(const AffineCorrespondence& ac, const Frame& now) const;
   /// Number of the track that a match carries on or begins, as it was aligned.
   [[nodiscard]] std::uint64_t carry_on(const AffineCorrespondence& matched,
                                        const std::map<Place, std::uint64_t>& known);
@@ -42,6 +46,7 @@ class MatchedTracker : public AcTracker {
   FeatureOptions options_;
   FeatureMask mask_;
   GreyImage unused_;  ///< by the mask
+  GreyImage masked_;  ///< by the masks of single images, too; empty without them
   std::unique_ptr<AcExtractor> extractor_;
   bool align_;
   std::shared_ptr<const Frame> last_;

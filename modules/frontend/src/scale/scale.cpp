@@ -27,7 +27,8 @@ constexpr int kCheckEvery = 5;
 LengthSource source_of_metres(const ScaleOptions& options) {
   if (options.source == "height") return LengthSource::kRoad;
   if (options.source == "stereo") return LengthSource::kStereo;
-  return options.source == "gps" ? LengthSource::kSpeed : LengthSource::kNone;
+  const bool by_speed = options.source == "gps" || options.source == "wheels";
+  return by_speed ? LengthSource::kSpeed : LengthSource::kNone;
 }
 
 /// Inertia goes on where it does not allow what images or road tell in metres: one of the two is
@@ -48,6 +49,7 @@ Scale::Scale(const FrontEndOptions& options)
       least_depths_(static_cast<std::size_t>(options.window.min_carry)),
       filter_(options.scale),
       road_(options.ground_scale, options.consensus.threshold_px),
+      one_speed_begins_(options.scale.source == "gps"),
       inertia_(options.scale, options.max_hold),
       road_uncertainty_(options.scale.road_uncertainty) {}
 
@@ -268,7 +270,8 @@ std::optional<ScaleMeasurement> Scale::by_interval(const KeyframePair& pair) con
 
 std::optional<ScaleMeasurement> Scale::by_speed() {
   const auto over_an_epoch = speeds_.measure();
-  return over_an_epoch || filter_.is_metric() ? over_an_epoch : speeds_.first_guess();
+  const bool guess = !over_an_epoch && one_speed_begins_ && !filter_.is_metric();
+  return guess ? speeds_.first_guess() : over_an_epoch;
 }
 
 }  // namespace oneac

@@ -41,7 +41,7 @@ class Scale {
 
   /// The first frame, whose mount may tell the camera's height.
   void start(const CameraFrame& first);
-  /// Speed over ground in time order, for the source "gps".
+  /// Speed over ground in time order, for the sources "gps" and "wheels".
   void add_speed(const SpeedReading& told);
   /// Relative 1σ that every length by images has beside its own, from here on: the camera's focal
   /// length is in doubt. Lengths by speeds do not know it.
@@ -177,7 +177,8 @@ class Scale {
   ScaleFilter filter_;
   RoadLength road_;
   SpeedScale speeds_;
-  Carried carried_;                 ///< since the last keyframe
+  bool one_speed_begins_;  ///< before two are known: a receiver's, which come a second apart
+  Carried carried_;        ///< since the last keyframe
   double last_metric_speed_ = 0.0;  ///< [m/s]
   double last_metric_time_ = 0.0;   ///< [s]
   Inertia inertia_;

@@ -20,19 +20,25 @@ constexpr double kSteps = 16.0;
 // steps ago: 5 to 10 % of it were lost in 50° of real ones.
 constexpr double kTurnDrift = 0.06;
 
+double lasting_sigma(const ScaleOptions& options) {
+  if (options.source == "wheels") return options.wheel_uncertainty;
+  return options.source == "height" ? options.road_uncertainty : 0.0;
+}
+
 }  // namespace
 
 ScaleFilter::ScaleFilter(const ScaleOptions& options)
     : options_(options),
-      lasting_variance_(
-          options.source == "height" ? options.road_uncertainty * options.road_uncertainty : 0.0) {}
+      by_wheels_(options.source == "wheels"),
+      lasting_variance_(lasting_sigma(options) * lasting_sigma(options)) {}
 
 double ScaleFilter::drift(double way, double carried_variance, double turn) {
   const double before = variance_;
   refused_way_ += std::abs(way);
+  wheels_.travel(std::abs(way));
   variance_ += options_.map_drift * options_.map_drift + kSteps * carried_variance +
                kTurnDrift * kTurnDrift * std::abs(turn);
-  const double kept = std::exp(-std::abs(way) / kStretch);
+  const double kept = by_wheels_ ? 1.0 : std::exp(-std::abs(way) / kStretch);
   error_ *= kept;
   error_variance_ = lasting_variance_ + kept * kept * (error_variance_ - lasting_variance_);
   covariance_ *= kept;
@@ -41,6 +47,8 @@ double ScaleFilter::drift(double way, double carried_variance, double turn) {
 
 void ScaleFilter::lose() {
   known_ = false;
+  doubted_ = false;
+  wheels_.forget();
 }
 
 double ScaleFilter::start(double ratio, double noise) {
@@ -56,20 +64,46 @@ double ScaleFilter::start(double ratio, double noise) {
 double ScaleFilter::correct(double ratio, double sigma) {
   began_anew_ = false;
   if (!(ratio > 0.0) || !std::isfinite(ratio) || !(sigma > 0.0)) return 1.0;
+  if (by_wheels_) return correct_by_wheels(std::log(ratio), sigma);
   const double noise = sigma * sigma;
   if (!known_) return start(ratio, noise);
   // z = state + error + noise; the state is zero.
   const double innovation = std::log(ratio) - error_;
-  const double state_share = variance_ + covariance_;
-  const double error_share = error_variance_ + covariance_;
-  const double total = state_share + error_share + noise;
-  if (std::abs(innovation) > options_.outlier_sigmas * std::sqrt(total)) {
+  if (!is_likely(innovation, noise)) {
     if (++refused_ == 1) refused_way_ = 0.0;
     if (refused_ < kPatience || refused_way_ < kStretches * kStretch) return 1.0;
     began_anew_ = true;
     return start(ratio, noise);
   }
   refused_ = 0;
+  return update(innovation, noise);
+}
+
+double ScaleFilter::correct_by_wheels(double log_ratio, double sigma) {
+  const double noise = sigma * sigma;
+  const WheelConsensus::Verdict told = wheels_.add(log_ratio, sigma);
+  double factor = 1.0;
+  if (!known_) {
+    factor = std::exp(told.median);
+    if (told.agreed) start(factor, noise);
+  } else {
+    const bool likely = is_likely(told.median - error_, noise);
+    doubted_ = !told.agreed || !likely;
+    if (told.fits && likely) factor = update(log_ratio - error_, noise);
+  }
+  wheels_.rescale(std::log(factor));
+  return factor;
+}
+
+bool ScaleFilter::is_likely(double innovation, double noise) const {
+  const double total = (variance_ + covariance_) + (error_variance_ + covariance_) + noise;
+  return std::abs(innovation) <= options_.outlier_sigmas * std::sqrt(total);
+}
+
+double ScaleFilter::update(double innovation, double noise) {
+  const double state_share = variance_ + covariance_;
+  const double error_share = error_variance_ + covariance_;
+  const double total = state_share + error_share + noise;
   error_ += error_share / total * innovation;
   variance_ -= state_share * state_share / total;
   covariance_ -= state_share * error_share / total;

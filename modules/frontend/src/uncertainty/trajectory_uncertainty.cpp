@@ -46,9 +46,13 @@ class Chain {
     by_turns_ += turned_.cross(d);
     if (step.pose.t.norm() > 0.0) add_length(step, d);
   }
-  [[nodiscard]] Eigen::Matrix3d position() const {
-    return turns_.bottomRightCorner<3, 3>() + common_ * common_.transpose() + lengths_ +
-           by_turns_ * by_turns_.transpose();
+  /// Of (θ, p).
+  [[nodiscard]] Matrix6 pose() const {
+    Eigen::Matrix<double, 6, 1> by_scale_of_turns;
+    by_scale_of_turns << turned_, by_turns_;
+    Matrix6 all = turns_ + by_scale_of_turns * by_scale_of_turns.transpose();
+    all.bottomRightCorner<3, 3>() += common_ * common_.transpose() + lengths_;
+    return 0.5 * (all + all.transpose());
   }
 
  private:
@@ -94,16 +98,25 @@ std::optional<double> sigma_of_length(const StepResult& step) {
   return std::sqrt(std::max(variance, 0.0));
 }
 
-std::vector<Eigen::Matrix3d> position_covariances(const std::vector<FrameResult>& frames,
-                                                  double common_sigma, double camera_doubt) {
-  std::vector<Eigen::Matrix3d> covariances;
+std::vector<Matrix6> pose_covariances(const std::vector<FrameResult>& frames, double common_sigma,
+                                      double camera_doubt) {
+  std::vector<Matrix6> covariances;
   covariances.reserve(frames.size());
   Chain chain(common_sigma, camera_doubt);
   for (std::size_t i = 0; i < frames.size(); ++i) {
     if (i > 0 && frames[i].step) {
       chain.add(*frames[i].step, frames[i - 1].T_first_cam, frames[i].T_first_cam);
     }
-    covariances.push_back(chain.position());
+    covariances.push_back(chain.pose());
+  }
+  return covariances;
+}
+
+std::vector<Eigen::Matrix3d> position_covariances(const std::vector<FrameResult>& frames,
+                                                  double common_sigma, double camera_doubt) {
+  std::vector<Eigen::Matrix3d> covariances;
+  for (const Matrix6& pose : pose_covariances(frames, common_sigma, camera_doubt)) {
+    covariances.emplace_back(pose.bottomRightCorner<3, 3>());
   }
   return covariances;
 }

@@ -2,10 +2,19 @@
 
 #include "oneac/observations/image_decoding.h"
 
+#include <system_error>
+
 namespace oneac {
 
 std::string StoredImage::name(const std::string& name_in_log) const {
   return file.empty() ? name_in_log : file.string();
+}
+
+std::size_t StoredImage::bytes() const {
+  if (file.empty()) return in_log->bytes.size();
+  std::error_code unknown;
+  const auto size = std::filesystem::file_size(file, unknown);
+  return unknown ? 0 : static_cast<std::size_t>(size);
 }
 
 GreyImage StoredImage::grey(const std::string& name_in_log) const {

@@ -4,6 +4,7 @@
 #include "images/log_image.h"
 #include "read/log_view.h"
 
+#include <cstddef>
 #include <filesystem>
 #include <memory>
 #include <optional>
@@ -19,6 +20,8 @@ struct StoredImage {
   /// @param name_in_log  for messages about an image of the log
   /// @throws InputError when it cannot be decoded
   [[nodiscard]] GreyImage grey(const std::string& name_in_log) const;
+  /// What it takes where it is stored [byte]; 0 when that cannot be told.
+  [[nodiscard]] std::size_t bytes() const;
   [[nodiscard]] std::string name(const std::string& name_in_log) const;
 };
 

@@ -1,3 +1,4 @@
+#include "import/exif_times.h"
 #include "import/image_drive.h"
 #include "import/import_images.h"
 #include "import/stamps.h"
@@ -18,14 +19,18 @@ std::vector<double> times_of(const DriveImport& options, const std::vector<fs::p
   const fs::path table = options.source / "times.txt";
   if (fs::exists(table)) return stamps_from_table(table, images, report);
   std::vector<double> times = stamps_from_names(images);
-  if (times.empty()) {
-    throw InputError(options.source.string(),
-                     "nothing tells when its images were taken: there is no times.txt, and their "
-                     "names hold no times since 1970 in s, ms, us or ns that increase",
-                     "give their rate with --fps, or a times.txt with a row per image");
+  if (!times.empty()) {
+    report.notes.emplace_back("the images are stamped with the times in their names");
+    return times;
   }
-  report.notes.emplace_back("the images are stamped with the times in their names");
-  return times;
+  std::string fault;
+  times = stamps_from_exif(images, report, fault);
+  if (!times.empty()) return times;
+  throw InputError(options.source.string(),
+                   "nothing tells when its images were taken: there is no times.txt, their names "
+                   "hold no times since 1970 in s, ms, us or ns that increase, and there is " +
+                       fault,
+                   "give their rate with --fps, or a times.txt with a row per image");
 }
 
 bool names_say(const fs::path& image, const char* side) {

@@ -38,13 +38,13 @@ bool is_hidden(const fs::path& path) {
 
 bool is_image(const fs::path& path) {
   return !is_hidden(path) &&
-         is_one_of(lower_extension(path), {".png", ".jpg", ".jpeg", ".bmp", ".pgm", ".ppm"});
+         is_one_of(lower_extension(path),
+                   {".png", ".jpg", ".jpeg", ".bmp", ".pgm", ".ppm", ".tif", ".tiff", ".webp"});
 }
 
 bool is_foreign_image(const fs::path& path) {
   return !is_hidden(path) &&
-         is_one_of(lower_extension(path),
-                   {".tif", ".tiff", ".webp", ".heic", ".gif", ".jp2", ".raw", ".dng", ".exr"});
+         is_one_of(lower_extension(path), {".heic", ".gif", ".jp2", ".raw", ".dng", ".exr"});
 }
 
 /// One moment would be there twice: "000003.jpg" beside "000003.png".

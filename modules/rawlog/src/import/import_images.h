@@ -9,12 +9,13 @@
 
 namespace oneac {
 
-/// Images (.png, .jpg, .jpeg, .bmp, .pgm, .ppm) of a folder in the order of their names, numbers in
-/// them by their value: 2 before 10; hidden files are none; empty when there is no such folder.
+/// Images (.png, .jpg, .jpeg, .bmp, .pgm, .ppm, .tif, .tiff, .webp) of a folder in the order of
+/// their names, numbers in them by their value: 2 before 10; hidden files are none; empty when
+/// there is no such folder.
 /// @throws InputError when two differ by their endings only
 [[nodiscard]] std::vector<std::filesystem::path> list_images(const std::filesystem::path& folder);
 
-/// Images of a folder that are not read, by kind: "12 .tif, 3 .webp"; "" for none.
+/// Images of a folder that are not read, by kind: "12 .heic, 3 .gif"; "" for none.
 [[nodiscard]] std::string foreign_images(const std::filesystem::path& folder);
 
 /// Width and height [px]. @throws InputError when the image cannot be decoded or has less than 32

@@ -50,7 +50,7 @@ Sequence find_images(const fs::path& source) {
     const std::string foreign = foreign_images(source / folder);
     if (foreign.empty()) continue;
     throw InputError((source / folder).string(), "its images (" + foreign + ") are not read",
-                     "convert them to PNG, JPEG, BMP, PGM or PPM");
+                     "convert them to PNG, JPEG, BMP, PGM, PPM, TIFF or WebP");
   }
   throw InputError(
       source.string(),

@@ -102,6 +102,7 @@ void Summariser::add_sensors(LogSummary& summary) const {
     summary.observations += sensor.count;
     if (key.second == "CObservationGPS") summary.gps_observations += sensor.count;
     if (key.second == "CObservationIMU") summary.imu_observations += sensor.count;
+    if (key.second == "CObservationOdometry") summary.wheel_observations += sensor.count;
     if (!sensor.times.empty()) {
       const auto ends = std::minmax_element(sensor.times.begin(), sensor.times.end());
       line.first_s = *ends.first;

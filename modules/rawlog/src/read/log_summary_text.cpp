@@ -124,6 +124,9 @@ std::string reference_lines(const LogSummary& summary) {
   if (summary.imu_observations > 0) {
     lines += text("IMU: %zu observations\n", summary.imu_observations);
   }
+  if (summary.wheel_observations > 0) {
+    lines += text("wheels: %zu observations\n", summary.wheel_observations);
+  }
   return lines;
 }
 

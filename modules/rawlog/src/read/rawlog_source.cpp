@@ -1,6 +1,7 @@
 #include "oneac/rawlog/rawlog_source.h"
 
 #include "images/external_images.h"
+#include "images/mask_folder.h"
 #include "images/stored_image.h"
 #include "read/camera_selection.h"
 #include "read/log_reader.h"
@@ -13,6 +14,7 @@
 #include "oneac/mrpt_compat/observations.h"
 #include "oneac/observations/camera_reader.h"
 #include "oneac/observations/pose_watch.h"
+#include "oneac/observations/wheel_readings.h"
 #include "oneac/rawlog/calibration.h"
 
 #include <utility>
@@ -26,6 +28,7 @@ constexpr double kReferenceTail = 2.0;  // [s] read past the last image: two epo
 struct Payload {
   StoredImage image;
   std::optional<StoredImage> right;
+  std::filesystem::path mask;  ///< empty: none
   double baseline_m = 0.0;
   Eigen::Isometry3d T_vehicle_cam;
 };
@@ -62,23 +65,28 @@ class RawlogSource::Impl {
  private:
   [[nodiscard]] CameraReaderOptions reader_options() const;
   [[nodiscard]] std::optional<Sight> take(const RawlogRecord& record);
+  void take_wheels(const mrpt::obs::CObservation& observation);
   [[nodiscard]] bool is_selected(std::size_t index) const;
   [[nodiscard]] std::optional<FrameTicket> ticket_of(const Sight& sight,
                                                      const RawlogRecord& record);
   void settle_size(const StoredImage& first, const std::string& ticket_name);
   void add_right(const LogView& right, std::size_t record, Payload& payload);
   [[nodiscard]] GreyImage decoded(const StoredImage& image, const std::string& ticket_name) const;
+  void add_image(const Payload& payload, const std::string& ticket_name, CameraFrame& frame) const;
   [[nodiscard]] std::string where(std::size_t record) const;
   void complete_report();
 
   SourceOptions options_;
   ExternalImages images_;
+  std::optional<MaskFolder> masks_;
   CameraCandidate chosen_;
   CameraReader camera_;
   LogReader reader_;
   ReferenceCollector collector_;
   NameOrder names_;
   PoseWatch poses_;
+  WheelFollower wheels_;
+  std::vector<SpeedReading> wheel_speeds_;  ///< that no ticket has taken along yet
   SourceReport report_;
   std::size_t delivered_ = 0;
   std::optional<double> last_time_;
@@ -91,6 +99,7 @@ RawlogSource::Impl::Impl(const SourceOptions& options)
       chosen_(choose_camera(options.log, options.camera, images_)),
       camera_(chosen_, reader_options(), where(chosen_.first_record)),
       reader_(options.log) {
+  if (!options_.mask_dir.empty()) masks_.emplace(options_.mask_dir);
   report_.undistorted_by_log = camera_.undistorts() && options_.calibration.empty();
 }
 
@@ -115,6 +124,7 @@ std::string RawlogSource::Impl::where(std::size_t record) const {
 // Books the record; its view by the chosen camera, if it has one.
 std::optional<Sight> RawlogSource::Impl::take(const RawlogRecord& record) {
   collector_.add(*record.observation);
+  take_wheels(*record.observation);
   std::optional<Sight> sight;
   for (auto& view : log_views(record)) {
     if (view.name() == chosen_.name) {
@@ -125,6 +135,12 @@ std::optional<Sight> RawlogSource::Impl::take(const RawlogRecord& record) {
     }
   }
   return sight;
+}
+
+void RawlogSource::Impl::take_wheels(const mrpt::obs::CObservation& observation) {
+  const WheelFollower::Taken taken = wheels_.take(observation);
+  if (taken.use == WheelFollower::Use::kTaken) ++report_.wheel_readings;
+  if (taken.speed) wheel_speeds_.push_back(*taken.speed);
 }
 
 bool RawlogSource::Impl::is_selected(std::size_t index) const {
@@ -140,6 +156,7 @@ std::optional<FrameTicket> RawlogSource::Impl::next() {
     if (!ticket) continue;
     ++delivered_;
     last_time_ = ticket->time_s;
+    ticket->wheels = std::exchange(wheel_speeds_, {});
     return ticket;
   }
   complete_report();
@@ -170,6 +187,10 @@ std::optional<FrameTicket> RawlogSource::Impl::ticket_of(const Sight& sight,
   if (view.image->kind == LogImage::Kind::external) names_.add(ticket.name);
   auto payload = std::make_shared<Payload>();
   payload->image = std::move(*image);
+  if (masks_) {
+    const bool in_file = view.image->kind == LogImage::Kind::external;
+    payload->mask = masks_->mask_of(in_file ? ticket.name : "", ticket.index);
+  }
   if (sight.right) add_right(*sight.right, record.number, *payload);
   if (payload->right) {
     ++report_.pairs_delivered;
@@ -202,12 +223,24 @@ GreyImage RawlogSource::Impl::decoded(const StoredImage& image,
   return camera_.rectify(image.grey(in_log), image.name(in_log));
 }
 
+// The mask belongs to the image as it is stored, and is undistorted as it is.
+void RawlogSource::Impl::add_image(const Payload& payload, const std::string& ticket_name,
+                                   CameraFrame& frame) const {
+  const std::string in_log = options_.log.string() + ": " + ticket_name;
+  GreyImage stored = payload.image.grey(in_log);
+  if (!payload.mask.empty()) {
+    frame.mask =
+        camera_.rectify(read_mask(payload.mask, stored.view(), ticket_name), payload.mask.string());
+  }
+  frame.image = camera_.rectify(std::move(stored), payload.image.name(in_log));
+}
+
 CameraFrame RawlogSource::Impl::load(const FrameTicket& ticket) const {
   const auto& payload = *static_cast<const Payload*>(ticket.payload.get());
   CameraFrame frame;
   {
     const StageTimer timer(frame.decode_ms);
-    frame.image = decoded(payload.image, ticket.name);
+    add_image(payload, ticket.name, frame);
     if (payload.right) frame.right = decoded(*payload.right, ticket.name + " (right)");
   }
   frame.baseline_m = payload.baseline_m;
@@ -249,6 +282,9 @@ std::optional<FrameTicket> RawlogSource::next() {
 }
 CameraFrame RawlogSource::load(const FrameTicket& ticket) const {
   return impl_->load(ticket);
+}
+std::size_t RawlogSource::stored_bytes(const FrameTicket& ticket) const {
+  return static_cast<const Payload*>(ticket.payload.get())->image.bytes();
 }
 void RawlogSource::finish() {
   impl_->finish();

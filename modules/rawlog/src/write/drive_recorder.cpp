@@ -111,9 +111,12 @@ class DriveWriter {
     for (;;) {
       const double gps_s = time_of(drive_.gps, next_gps_);
       const double imu_s = time_of(drive_.imu, next_imu_);
-      if (std::min(gps_s, imu_s) > time_s) return;
-      if (gps_s <= imu_s) {
+      const double wheels_s = time_of(drive_.wheels, next_wheels_);
+      if (std::min({gps_s, imu_s, wheels_s}) > time_s) return;
+      if (gps_s <= std::min(imu_s, wheels_s)) {
         write_sensor(drive_.gps[next_gps_++]);
+      } else if (wheels_s < imu_s) {
+        write_sensor(drive_.wheels[next_wheels_++]);
       } else {
         write_sensor(drive_.imu[next_imu_++]);
       }
@@ -160,6 +163,7 @@ class DriveWriter {
   std::size_t written_ = 0;  ///< frames
   std::size_t next_gps_ = 0;
   std::size_t next_imu_ = 0;
+  std::size_t next_wheels_ = 0;
 };
 
 }  // namespace

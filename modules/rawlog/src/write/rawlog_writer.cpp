@@ -11,6 +11,7 @@
 
 #include <mrpt/obs/CObservationIMU.h>
 #include <mrpt/obs/CObservationImage.h>
+#include <mrpt/obs/CObservationOdometry.h>
 #include <mrpt/obs/CObservationStereoImages.h>
 #include <mrpt/serialization/CArchive.h>
 #include <unistd.h>
@@ -162,6 +163,15 @@ void RawlogWriter::write(const ImuRecord& record) {
   observation.set(mrpt::obs::IMU_WX, record.angular_rate.x());
   observation.set(mrpt::obs::IMU_WY, record.angular_rate.y());
   observation.set(mrpt::obs::IMU_WZ, record.angular_rate.z());
+  impl_->put(observation);
+}
+
+void RawlogWriter::write(const OdometryRecord& record) {
+  mrpt::obs::CObservationOdometry observation;
+  observation.sensorLabel = record.label;
+  observation.timestamp = mrpt_time(record.time_s);
+  observation.odometry =
+      mrpt::poses::CPose2D(record.position.x(), record.position.y(), record.heading);
   impl_->put(observation);
 }
 

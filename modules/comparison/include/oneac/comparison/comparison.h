@@ -16,10 +16,14 @@ struct CompareHooks {
   int threads = 1;  ///< pairs at once; each pair is estimated by one thread
   std::function<bool()> keep_going = [] { return true; };
   std::function<void(double share, std::size_t pairs)> progress = [](double, std::size_t) {};
+  /// One line to be told to the user, of a log that can be used.
+  std::function<void(const std::string&)> note = [](const std::string&) {};
 };
 
 /// Runs what the journal does not hold yet: each pair's correspondences are extracted once and
 /// given to every method, with the same levelling. Every pair is in the journal before the next.
+/// Images that repeat the one before are left out, and said, as `oneac run` does: no method can
+/// tell a motion from two prints of one image, and the reference has one.
 ///
 /// Levelling: the log's tilt (or that of the settings), its pitch corrected by the median elevation
 /// of the direction of travel that "1ac_pooled" finds on up to kTiltPairs pairs spread evenly over

@@ -11,6 +11,8 @@
 #include <memory>
 #include <mutex>
 #include <optional>
+#include <set>
+#include <string>
 #include <vector>
 
 namespace oneac {
@@ -29,7 +31,9 @@ class PairExtractor {
   explicit PairExtractor(const FeatureOptions& options);
 
   /// Thread-safe. @pre the image is not empty
-  [[nodiscard]] std::shared_ptr<const FrameFeatures> prepare(const ImageView& image) const;
+  /// @param mask  as of AcTracker::prepare()
+  [[nodiscard]] std::shared_ptr<const FrameFeatures> prepare(const ImageView& image,
+                                                             const ImageView& mask) const;
   /// In pixels. Thread-safe.
   [[nodiscard]] std::vector<AffineCorrespondence> correspond(
       std::shared_ptr<const FrameFeatures> first, std::shared_ptr<const FrameFeatures> second,
@@ -70,28 +74,33 @@ struct StreamPair {
   [[nodiscard]] PairAcs correspond(const PairExtractor& extractor) const;
 };
 
-/// Streams the pairs of a log, in order.
-class PairStream {
- public:
-  PairStream(const SourceOptions& options, const PairExtractor& extractor);
-  [[nodiscard]] std::optional<StreamPair> next();
-
- private:
-  RawlogSource source_;
-  const PairExtractor& extractor_;
-  std::shared_ptr<StreamImage> last_;
-  std::size_t ordinal_ = 0;
-};
-
-/// What one pass over a log without decoding tells.
+/// What one pass over a log tells, which decodes as good as no image.
 struct LogScan {
-  std::vector<ImageMoment> images;  ///< selected, present, in time order
+  std::vector<ImageMoment> images;  ///< selected, present, in time order, none a repeated one
+  std::set<std::size_t> repeated;   ///< indices of images with the pixels of the one before
+  std::string first_repeated;       ///< name of the first of them
   Eigen::Isometry3d T_vehicle_cam = CameraFrame::forward_looking_mount();
   VehicleReference vehicle;
   std::string damage;  ///< one line when the log ends badly, else ""
 
   [[nodiscard]] std::size_t pairs() const { return images.empty() ? 0 : images.size() - 1; }
 };
+/// Images are compared where they take as many bytes as the one before, as repeated ones do.
 [[nodiscard]] LogScan scan_log(const SourceOptions& options);
+
+/// Streams the pairs of a log, in order.
+class PairStream {
+ public:
+  /// @param scan  of the same log; must outlive this
+  PairStream(const SourceOptions& options, const LogScan& scan, const PairExtractor& extractor);
+  [[nodiscard]] std::optional<StreamPair> next();
+
+ private:
+  RawlogSource source_;
+  const LogScan& scan_;
+  const PairExtractor& extractor_;
+  std::shared_ptr<StreamImage> last_;
+  std::size_t ordinal_ = 0;
+};
 
 }  // namespace oneac

@@ -1,6 +1,6 @@
 #pragma once
 
-#include <Eigen/Core>
+#include <Eigen/Geometry>
 
 #include <cstddef>
 #include <filesystem>
@@ -31,5 +31,27 @@ struct CovarianceRow {
 /// @throws InputError naming file, line and cure: not readable, another header, a wrong number of
 ///         fields, not a finite number
 [[nodiscard]] std::vector<CovarianceRow> read_covariances(const std::filesystem::path& path);
+
+/// How sure a drive is of where it was: a row of a trajectory_*.csv.
+struct PoseCovarianceRow {
+  std::size_t index = 0;  ///< of the image
+  double time_s = 0.0;    ///< Unix time [s]
+  Eigen::Isometry3d T_world_body = Eigen::Isometry3d::Identity();
+  /// Of (θ, p) in the world: R ← exp([θ]×) R, p ← p + δp [rad², rad m, m²]
+  Eigen::Matrix<double, 6, 6> covariance = Eigen::Matrix<double, 6, 6>::Zero();
+  bool metric = false;       ///< the step to it is
+  bool has_lengths = false;  ///< the drive is in metres, so that what concerns p means something
+};
+
+/// The text of a trajectory_camera.csv or trajectory_vehicle.csv:
+/// `time,x,y,z,qw,qx,qy,qz,index,metric,c00,c01,…,c05,c11,…,c55`, the upper triangle row by row,
+/// its entries with p empty without `has_lengths`. read_trajectory_file() reads its poses.
+/// @throws std::invalid_argument when a number is not finite
+[[nodiscard]] std::string format_pose_covariances(const std::vector<PoseCovarianceRow>& rows);
+
+/// The row of a body that sits so in the one of `row`, in the world that sits so in its world:
+/// T_fixed T_world_body T_fixed⁻¹, as the vehicle's of its camera's.
+[[nodiscard]] PoseCovarianceRow carried_to(const Eigen::Isometry3d& T_fixed,
+                                           const PoseCovarianceRow& row);
 
 }  // namespace oneac

@@ -34,8 +34,10 @@ class AcTracker {
   AcTracker& operator=(const AcTracker&) = delete;
 
   /// Everything that needs one image only. Thread-safe. @pre the image is not empty
+  /// @param mask  of the image's size: dark (below 128) where it is not used; empty: all of it is
+  /// @throws std::invalid_argument for a mask of another size
   [[nodiscard]] virtual std::shared_ptr<const FrameFeatures> prepare(
-      const ImageView& image) const = 0;
+      const ImageView& image, const ImageView& mask = {}) const = 0;
   /// Correspondences [px] from the last frame given to this one; none for the first.
   [[nodiscard]] virtual TrackedPair advance(std::shared_ptr<const FrameFeatures> now,
                                             const MotionHint& hint) = 0;
@@ -51,8 +53,9 @@ class AcTracker {
   [[nodiscard]] virtual bool knows_car() const { return false; }
   /// Whether the image given last shows travel since the one before, whatever its tracks do.
   [[nodiscard]] virtual bool shows_travel() const { return false; }
-  /// What of the images is not used: dark (0) where a mask was given or the car is known to be, of
-  /// the images' size; empty where all is used. Valid until the next call of advance().
+  /// What of the images is not used: dark where a mask was given (of this image or of the one
+  /// before) or the car is known to be, of the images' size; empty where all is used. Valid until
+  /// the next call of advance().
   [[nodiscard]] virtual ImageView unused() const { return {}; }
 };
 

@@ -47,7 +47,7 @@ struct PreparedFrame {
 ///
 /// What throws what: numbers and pointers that the caller makes up are misuse when they are out of
 /// bounds, std::invalid_argument; what an observation holds is input, InputError for an image of
-/// the camera, and passed over for IMU and GPS, which only help.
+/// the camera, and passed over for IMU, GPS and wheels, which only help.
 class FrontEnd : public mrpt::system::COutputLogger {
  public:
   /// @throws std::invalid_argument for options out of bounds, InputError for an unknown initialiser
@@ -75,8 +75,8 @@ class FrontEnd : public mrpt::system::COutputLogger {
   ///         not finite; nothing is taken then
   void add_acceleration(double time_s, const Eigen::Vector3d& acceleration,
                         std::optional<double> yaw_rate = std::nullopt);
-  /// Speed over ground [m/s] with its 1σ, for scale.source "gps"; offline a second or two ahead of
-  /// the images. One that is not later than the last is not used.
+  /// Speed over ground [m/s] with its 1σ, for scale.source "gps" or "wheels"; offline a second or
+  /// two ahead of the images. One that is not later than the last is not used.
   /// @throws std::invalid_argument as add_acceleration does; a speed is from 0 on, its 1σ above 0
   void add_speed(double time_s, double speed_mps, double sigma_mps = SpeedReading::kDoppler);
   /// CPU time of the stages so far, by name.
@@ -127,6 +127,7 @@ class FrontEnd : public mrpt::system::COutputLogger {
 
   FrontEndOptions options_;
   bool stereo_;  ///< metres come from the right images
+  bool wheels_;  ///< metres come from an odometer
   std::unique_ptr<AcTracker> tracker_;
   std::unique_ptr<Odometry> odometry_;
   std::unique_ptr<CameraLearner> learner_;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "oneac/frontend/wheel_consensus.h"
 #include "oneac/frontend/window_options.h"
 
 namespace oneac {
@@ -10,7 +11,12 @@ namespace oneac {
 /// only its variance remains. The local map carries the scale from keyframe to keyframe with a
 /// random walk; the road, or a speed, measures it. What is wrong with the road's measurement (its
 /// bumps, the height on the springs) stays the same while the same road is in view: a second state,
-/// so that ten keyframes on one bump do not count as ten measurements.
+/// so that ten keyframes on one bump do not count as ten measurements. With wheels that state is
+/// the size of the tyres, which stays for the drive, and the map's scale is never surer than it.
+///
+/// With the source "wheels" there is no scale before a WheelConsensus, and where one that is there
+/// contradicts the map, or none is, the scale is not metric: one of the two is wrong, and nothing
+/// says which. The map is not moved then, until they agree again.
 class ScaleFilter {
  public:
   /// @pre options.validate() passes
@@ -35,14 +41,21 @@ class ScaleFilter {
 
   /// Relative 1σ of the map's scale; infinite before the first measurement.
   [[nodiscard]] double uncertainty() const;
-  /// 1σ is below ScaleOptions::max_uncertainty.
-  [[nodiscard]] bool is_metric() const { return uncertainty() <= options_.max_uncertainty; }
+  /// 1σ is below ScaleOptions::max_uncertainty, and wheels do not contradict it.
+  [[nodiscard]] bool is_metric() const {
+    return !doubted_ && uncertainty() <= options_.max_uncertainty;
+  }
 
  private:
   double start(double ratio, double noise);
+  /// A measurement that is believed. @param innovation  of it against the state, without the error
+  double update(double innovation, double noise);
+  double correct_by_wheels(double log_ratio, double sigma);
+  [[nodiscard]] bool is_likely(double innovation, double noise) const;
 
   ScaleOptions options_;
-  double lasting_variance_;  ///< of the error that the road's measurements share
+  bool by_wheels_;
+  double lasting_variance_;  ///< of the error that the road's, or the wheels', measurements share
   bool known_ = false;
   double variance_ = 0.0;        ///< of the state
   double error_ = 0.0;           ///< that the road's measurements share now, ...
@@ -51,6 +64,8 @@ class ScaleFilter {
   int refused_ = 0;              ///< in a row
   double refused_way_ = 0.0;     ///< [m] since the first of them
   bool began_anew_ = false;
+  WheelConsensus wheels_;
+  bool doubted_ = false;  ///< wheels are not of one opinion, or of another one
 };
 
 }  // namespace oneac

@@ -48,17 +48,19 @@ void describe(Visitor&& visit, WindowOptions& o) {
 
 /// Where metres come from. validate() throws std::invalid_argument.
 struct ScaleOptions {
-  /// "height": road and camera height; "stereo": the right images' depths; "gps": speeds given
-  /// to FrontEnd; "none"
+  /// "height": road and camera height; "stereo": the right images' depths; "gps": speeds over
+  /// ground; "wheels": those of an odometer; "none"
   std::string source = "height";
   double map_drift = 0.003;        ///< [-] 1σ of the map's scale gained from keyframe to keyframe,
                                    ///< beside that of the lengths its landmarks carry
   double road_uncertainty = 0.02;  ///< [-] 1σ of the height above the road ahead: 3 cm of 1.65 m
                                    ///< for its unevenness and the body on its springs; more
                                    ///< where only road farther than 8 heights is seen
-  double max_uncertainty = 0.06;   ///< [-] relative 1σ of the scale that counts as metric
-  double outlier_sigmas = 5.0;     ///< [σ] a measurement farther from the map's scale is not
-                                   ///< believed; roads are not planes, their errors have long tails
+  double wheel_uncertainty = 0.03;  ///< [-] 1σ of the way by wheels that a whole drive shares: wear
+                                    ///< (8 mm of 315), pressure and load are 1 to 2 % each
+  double max_uncertainty = 0.06;  ///< [-] relative 1σ of the scale that counts as metric
+  double outlier_sigmas = 5.0;    ///< [σ] a measurement farther from the map's scale is not
+                                  ///< believed; roads are not planes, their errors have long tails
 
   double acceleration = 3.0;       ///< [m/s²] 1σ of what drivers do: a firm brake is 3 to 4
   double max_acceleration = 12.0;  ///< [m/s²] no tyre on a road gives more: µ g with µ = 1.2
@@ -70,13 +72,15 @@ struct ScaleOptions {
 template <class Visitor>
 void describe(Visitor&& visit, ScaleOptions& o) {
   visit("source", o.source, "name",
-        "height: road and camera height; stereo: right images; gps: speed; none",
-        Bound::one_of("height, stereo, gps or none"));
+        "height: road and camera height; stereo: right images; gps: speed; wheels: odometer; none",
+        Bound::one_of("height, stereo, gps, wheels or none"));
   visit("map_drift", o.map_drift, "-",
         "1-sigma of the map's scale, keyframe to keyframe, beside its landmarks' own",
         Bound::positive());
   visit("road_uncertainty", o.road_uncertainty, "-",
         "1-sigma of the height above the road ahead, the same for metres", Bound::at_least(0));
+  visit("wheel_uncertainty", o.wheel_uncertainty, "-",
+        "1-sigma of the way by wheels that the whole drive shares, for metres", Bound::at_least(0));
   visit("max_uncertainty", o.max_uncertainty, "-", "relative 1-sigma that counts as metric",
         Bound::positive());
   visit("outlier_sigmas", o.outlier_sigmas, "sigma", "measurements beyond it are left out",

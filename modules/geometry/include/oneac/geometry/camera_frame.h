@@ -14,9 +14,11 @@ namespace oneac {
 struct CameraFrame {
   std::size_t index =
       0;  ///< counts the images of this camera in the log from 0, missing ones included
-  double time_s = 0.0;       ///< Unix time [s]
-  std::string name;          ///< for messages: file name, or "record N"
-  GreyImage image;           ///< rectified
+  double time_s = 0.0;  ///< Unix time [s]
+  std::string name;     ///< for messages: file name, or "record N"
+  GreyImage image;      ///< rectified
+  /// Of the size of `image`: dark (below 128) where it is not used; empty: all of it is.
+  GreyImage mask;
   PinholeCamera camera;      ///< of `image`: no distortion left
   PinholeCamera raw_camera;  ///< of the image as it is stored: with its distortion
   GreyImage right;           ///< of a rectified pair, when asked for and there: same `camera`, ...

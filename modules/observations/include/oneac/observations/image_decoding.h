@@ -13,8 +13,9 @@ class Mat;
 
 namespace oneac {
 
-/// Reads a JPEG, PNG, BMP, PGM or PPM file as 8-bit grey (colour, 16-bit and alpha are converted;
-/// no rotation by EXIF). A colour JPEG gives the luminance that it stores.
+/// Reads a JPEG, PNG, BMP, PGM, PPM, TIFF (its first picture) or WebP file as 8-bit grey (colour,
+/// 16-bit and alpha are converted; no rotation by EXIF). A colour JPEG gives the luminance that it
+/// stores.
 /// @throws InputError naming the file when it cannot be read, decoded, or ends early
 [[nodiscard]] GreyImage decode_grey_file(const std::filesystem::path& file);
 

@@ -5,6 +5,7 @@
 #include "oneac/observations/pose_watch.h"
 #include "oneac/observations/repeat_watch.h"
 #include "oneac/observations/sensor_readings.h"
+#include "oneac/observations/wheel_readings.h"
 
 #include <array>
 #include <cstddef>
@@ -16,13 +17,13 @@ namespace oneac {
 
 /// Why an observation gave nothing, or an image of the camera no frame.
 enum class PassedOver {
-  kOtherClass,   ///< neither image nor IMU nor GPS
-  kOtherSensor,  ///< of another camera, IMU or GPS receiver than the one that is followed
+  kOtherClass,   ///< neither image nor IMU, GPS or wheels
+  kOtherSensor,  ///< of another camera, IMU, GPS receiver or odometer than the one that is followed
   kMissing,      ///< an image without pixels, or whose file is not there
   kOutOfOrder,   ///< an image not later than the one before
   kRepeated,     ///< an image that repeats the one before, pixel by pixel
-  kUnstamped,    ///< a reading of IMU or GPS without time stamp
-  kUnusable,     ///< a reading of IMU or GPS that is void or damaged
+  kUnstamped,    ///< a reading of IMU, GPS or wheels without time stamp
+  kUnusable,     ///< a reading of IMU, GPS or wheels that is void or damaged
   kNotNeeded,    ///< a sound reading without acceleration or speed: rates, a first position
 };
 inline constexpr std::size_t kReasons = 8;
@@ -34,6 +35,7 @@ struct IntakeCounts {
   std::size_t images = 0;         ///< gave a frame
   std::size_t accelerations = 0;  ///< readings of the IMU taken
   std::size_t speeds = 0;         ///< readings of the GPS taken
+  std::size_t wheels = 0;         ///< readings of the odometer taken
   std::array<std::size_t, kReasons> passed_over{};
 
   [[nodiscard]] std::size_t of(PassedOver reason) const {
@@ -41,11 +43,13 @@ struct IntakeCounts {
   }
 };
 
-/// What an observation holds for a front-end: at most one of the three, or a reason for none.
+/// What an observation holds for a front-end: at most one of them, or a reason for none. Of wheels
+/// most readings give nothing yet: they make stretches.
 struct Intake {
   std::optional<CameraFrame> frame;
-  std::optional<ImuSample> inertial;  ///< has an acceleration
-  std::optional<SpeedReading> speed;
+  std::optional<ImuSample> inertial;   ///< has an acceleration
+  std::optional<SpeedReading> speed;   ///< by the GPS
+  std::optional<SpeedReading> wheels;  ///< by the odometer, of a stretch that is over
   std::optional<PassedOver> passed_over;
 };
 
@@ -58,11 +62,11 @@ struct IntakeOptions {
 /// Observations as they come, one by one: the live counterpart of RawlogSource, with the same
 /// CameraReader, readings and refusals.
 ///
-/// One camera, one IMU and one GPS receiver are followed: of each the first that can be used, the
-/// camera by its label where one is asked for; of a stereo observation the left one. What cannot be
-/// used of IMU and GPS is passed over and counted; an image of the camera that exists and cannot be
-/// used is refused by an exception. It counts as an image of the camera in `index` and changes
-/// nothing else, so that feeding may go on.
+/// One camera, one IMU, one GPS receiver and one odometer are followed: of each the first that can
+/// be used, the camera by its label where one is asked for; of a stereo observation the left one.
+/// What cannot be used of IMU, GPS and wheels is passed over and counted; an image of the camera
+/// that exists and cannot be used is refused by an exception. It counts as an image of the camera
+/// in `index` and changes nothing else, so that feeding may go on.
 class ObservationIntake {
  public:
   explicit ObservationIntake(IntakeOptions options);
@@ -77,6 +81,7 @@ class ObservationIntake {
  private:
   [[nodiscard]] Intake take_inertial(const mrpt::obs::CObservation& observation);
   [[nodiscard]] Intake take_speed(const mrpt::obs::CObservation& observation);
+  [[nodiscard]] Intake take_wheels(const mrpt::obs::CObservation& observation);
   [[nodiscard]] Intake take_image(const mrpt::obs::CObservation& observation);
   [[nodiscard]] Intake read(const CameraView& view, const CameraView* right,
                             const mrpt::obs::CObservation& observation);
@@ -92,6 +97,7 @@ class ObservationIntake {
   std::string camera_;  ///< CameraView::name() of the one that is followed
   std::optional<std::string> imu_, gps_;
   SpeedOverGround speeds_;
+  WheelFollower wheels_;
   std::size_t seen_ = 0;                                         ///< images of the camera
   double last_time_ = -std::numeric_limits<double>::infinity();  ///< [s] of the last frame
   IntakeCounts counts_;

@@ -32,6 +32,7 @@ struct DriveRecording {
   std::function<DriveImages(std::size_t i)> images;
   std::vector<GpsRecord> gps;  ///< in time order; may run on past the last frame, as may imu
   std::vector<ImuRecord> imu;  ///< in time order
+  std::vector<OdometryRecord> wheels;  ///< in time order
 
   double epoch_s = 1261229980.0;  ///< Unix time of the start [s]; 19 December 2009, Málaga's day
   int threads = 1;                ///< the files do not depend on it
@@ -47,7 +48,7 @@ struct RecordedDrive {
 };
 
 /// Writes a drive in the layout of the Málaga dataset: `simulated.rawlog` (images as CAMERA1,
-/// GPS and IMU in time order), `Images/img_CAMERA1_<Unix time>[_left|_right].jpg`, and
+/// GPS, IMU and wheels in time order), `Images/img_CAMERA1_<Unix time>[_left|_right].jpg`, and
 /// `poses.txt` (KITTI format: one 3×4 row per frame, camera with X right, Y down, Z forward,
 /// first frame = identity).
 /// @throws InputError when the folder cannot be written to, OutputError when a file cannot,

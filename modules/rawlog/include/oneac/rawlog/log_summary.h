@@ -57,6 +57,7 @@ struct LogSummary {
   std::size_t gps_epochs_with_position = 0;  ///< of the receiver with the most epochs
   std::size_t gps_epochs_with_speed = 0;
   std::size_t imu_observations = 0;
+  std::size_t wheel_observations = 0;  ///< CObservationOdometry
   std::optional<InputError> damage;  ///< where and how the log ends badly; all above is before that
 };
 

@@ -27,6 +27,7 @@ struct SourceOptions {
   bool stereo = false;               ///< load the right image beside the left one, where it exists
   double undistorted_fov_deg = 0.0;  ///< across undistorted images [deg]; 0: the road is kept
   std::optional<PinholeCamera> camera_model = {};  ///< `calibration` by value; goes before it
+  std::filesystem::path mask_dir = {};             ///< folder with a mask per image; empty: none
 
   /// @throws InputError naming flag, value and bound
   void validate() const;
@@ -42,6 +43,7 @@ struct SourceReport {
   std::string damage;  ///< one line (file, record, fault, cure) when the log ends badly, else ""
   std::string names_out_of_order;   ///< one line with the cure, else ""
   VehicleReference reference;       ///< GPS and IMU seen on the way
+  std::size_t wheel_readings = 0;   ///< of the odometer that is followed
   std::string calibration_scaled;   ///< one line: it was given for another size, else ""
   bool undistorted_by_log = false;  ///< images are taken for raw, because the log's calibration is
 };
@@ -57,19 +59,24 @@ class RawlogSource {
  public:
   /// Opens the log and selects the camera.
   /// @throws InputError (no such file, empty, not a rawlog, no images, no such camera, no images in
-  ///         the images dir, unreadable calibration); labels and sections that exist are listed;
-  ///         with `stereo` also when the camera is not the left one of a rectified pair
+  ///         the images dir, no masks in the mask dir, unreadable calibration); labels and sections
+  ///         that exist are listed; with `stereo` also when the camera is not the left one of a
+  ///         rectified pair
   explicit RawlogSource(const SourceOptions& options);
   ~RawlogSource();
   RawlogSource(RawlogSource&&) noexcept;
   RawlogSource& operator=(RawlogSource&&) noexcept;
 
   /// Reads on to the next selected image that exists. Not thread-safe.
+  /// @throws InputError where a calibration or pose changes, a stamp or a mask is missing
   [[nodiscard]] std::optional<FrameTicket> next();
   /// Decodes, converts to grey, undistorts when distorted (map computed once). Thread-safe.
   /// @throws InputError naming the image when it cannot be decoded or has another size
-  ///         than the calibration
+  ///         than the calibration, or its mask one than it
   [[nodiscard]] CameraFrame load(const FrameTicket& ticket) const;
+  /// What the image takes in its file, or in the log [byte]; 0 when it cannot be told.
+  /// Thread-safe. Repeated images take as many.
+  [[nodiscard]] std::size_t stored_bytes(const FrameTicket& ticket) const;
   /// Reads on (without images) up to two seconds past the last image, so that the reference covers
   /// the drive; then `report` is complete. Call when done.
   void finish();
@@ -87,6 +94,8 @@ struct FrameTicket {
   std::size_t index = 0;
   double time_s = 0.0;
   std::string name;
+  /// By the log's wheels, as far as they are known before the image; each goes to one ticket.
+  std::vector<SpeedReading> wheels;
   std::shared_ptr<const void> payload;  ///< internal: the observation or the path of its image
 };
 

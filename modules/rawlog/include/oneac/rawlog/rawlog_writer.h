@@ -27,7 +27,8 @@ class RawlogWriter {
   /// A CObservationGPS with a GGA message and, when the velocity is known, another one with an RMC
   /// message under the same label and time, as the receiver of the Málaga dataset does.
   void write(const GpsRecord& record);
-  void write(const ImuRecord& record);  ///< a CObservationIMU
+  void write(const ImuRecord& record);       ///< a CObservationIMU
+  void write(const OdometryRecord& record);  ///< a CObservationOdometry, without speeds
 
   /// Puts the log in place. @throws OutputError naming it
   void close();

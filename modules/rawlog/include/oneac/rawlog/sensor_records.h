@@ -66,6 +66,14 @@ struct ImuRecord {
   Eigen::Vector3d angular_rate = Eigen::Vector3d::Zero();  ///< about X, Y, Z [rad/s]
 };
 
+/// Where a vehicle is by its wheels, from anywhere on.
+struct OdometryRecord {
+  double time_s = 0.0;  ///< Unix time [s]
+  std::string label;
+  Eigen::Vector2d position = Eigen::Vector2d::Zero();  ///< [m]
+  double heading = 0.0;                                ///< positive to the left [rad]
+};
+
 /// The point at east, north, up [m] from an origin on the WGS84 ellipsoid.
 [[nodiscard]] GeodeticPosition geodetic_from_enu(const Eigen::Vector3d& enu,
                                                  const GeodeticPosition& origin);

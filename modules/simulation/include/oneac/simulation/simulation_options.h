@@ -85,7 +85,8 @@ struct SimulationOptions {
   bool night = false;              ///< headlights, an amplified sensor: noise and hot pixels
   double rolling_shutter_s = 0.0;  ///< [s] from the first row, the pose's moment, to the last
 
-  double gps_noise_m = 0.3;  ///< [m] std. deviation per axis; a receiver with corrections
+  double gps_noise_m = 0.3;          ///< [m] std. deviation per axis; a receiver with corrections
+  double wheel_error_percent = 0.0;  ///< [%] by which the odometer counts too long a way
 
   /// @throws std::invalid_argument naming field, value and bound
   void validate() const;

@@ -47,6 +47,14 @@ struct SimulatedImu {
   Eigen::Vector3d angular_rate_radps = Eigen::Vector3d::Zero();   ///< in the vehicle frame
 };
 
+/// What the wheels of the vehicle count, at its origin: whole teeth of a ring, with slip under
+/// acceleration and the error of SimulationOptions::wheel_error_percent.
+struct SimulatedWheels {
+  double time_s = 0.0;
+  Eigen::Vector2d position_m = Eigen::Vector2d::Zero();  ///< from the start, X ahead there [m]
+  double heading_rad = 0.0;                              ///< positive to the left [rad]
+};
+
 /// A drive through a made-up town: streets between facades that meet in right-angled bends, walls
 /// across at their ends, boxes at the kerb, a stop on every second street, suspension.
 ///
@@ -84,6 +92,8 @@ class StreetSimulator {
   [[nodiscard]] std::vector<SimulatedGps> gps() const;
   /// 100 Hz, from the first to the last frame.
   [[nodiscard]] std::vector<SimulatedImu> imu() const;
+  /// 50 Hz, from the first to the last frame.
+  [[nodiscard]] std::vector<SimulatedWheels> wheels() const;
 
  private:
   struct Impl;

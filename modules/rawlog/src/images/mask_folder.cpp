@@ -1,0 +1,114 @@
+#include "images/mask_folder.h"
+
+#include "oneac/base/error.h"
+#include "oneac/observations/image_decoding.h"
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <set>
+#include <string_view>
+#include <system_error>
+#include <vector>
+
+namespace oneac {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string lower(std::string text) {
+  std::transform(text.begin(), text.end(), text.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return text;
+}
+
+bool is_picture(const fs::path& file) {
+  static const std::set<std::string> kEndings = {".png", ".jpg", ".jpeg", ".bmp", ".pgm",
+                                                 ".ppm", ".tif", ".tiff", ".webp"};
+  const std::string name = file.filename().string();
+  return name.front() != '.' && kEndings.count(lower(file.extension().string())) > 0;
+}
+
+std::string without_mask(const std::string& name) {
+  constexpr std::array<std::string_view, 2> kBehind = {"_mask", "-mask"},
+                                            kBefore = {"mask_", "mask-"};
+  for (const std::string_view word : kBehind) {
+    const bool has = name.size() > word.size() &&
+                     name.compare(name.size() - word.size(), word.size(), word) == 0;
+    if (has) return name.substr(0, name.size() - word.size());
+  }
+  for (const std::string_view word : kBefore) {
+    if (name.size() > word.size() && name.compare(0, word.size(), word) == 0) {
+      return name.substr(word.size());
+    }
+  }
+  return name;
+}
+
+/// What an image and its mask have in common: a number without its leading zeros.
+std::string key_of(const std::string& stem) {
+  const bool number = !stem.empty() && std::all_of(stem.begin(), stem.end(), [](unsigned char c) {
+    return std::isdigit(c) != 0;
+  });
+  if (!number) return stem;
+  const auto first = stem.find_first_not_of('0');
+  return first == std::string::npos ? "0" : stem.substr(first);
+}
+
+std::vector<fs::path> pictures_in(const fs::path& folder) {
+  std::vector<fs::path> files;
+  std::error_code error;
+  for (fs::directory_iterator it(folder, error), end; !error && it != end; it.increment(error)) {
+    std::error_code ignored;
+    if (is_picture(it->path()) && it->is_regular_file(ignored)) files.push_back(it->path());
+  }
+  if (error) {
+    throw InputError(folder.string(), "no such folder of masks", "name one with --mask-dir");
+  }
+  std::sort(files.begin(), files.end());
+  return files;
+}
+
+}  // namespace
+
+MaskFolder::MaskFolder(const fs::path& folder) : folder_(folder) {
+  for (const fs::path& file : pictures_in(folder)) {
+    const auto [at, fresh] = masks_.emplace(key_of(without_mask(file.stem().string())), file);
+    if (fresh) continue;
+    throw InputError(folder.string(),
+                     at->second.filename().string() + " and " + file.filename().string() +
+                         " are masks of one image",
+                     "keep one of them, and masks in a folder of their own");
+  }
+  if (!masks_.empty()) return;
+  throw InputError(folder.string(), "holds no pictures",
+                   "name the folder of the masks with --mask-dir");
+}
+
+fs::path MaskFolder::mask_of(const std::string& name, std::size_t index) const {
+  const fs::path file(name);
+  const std::vector<std::string> keys =
+      name.empty() ? std::vector<std::string>{std::to_string(index)}
+                   : std::vector<std::string>{name, key_of(file.stem().string())};
+  for (const std::string& key : keys) {
+    if (const auto at = masks_.find(key); at != masks_.end()) return at->second;
+  }
+  const std::string wanted = (name.empty() ? std::to_string(index) : file.stem().string()) + ".png";
+  throw InputError(folder_.string(),
+                   "no mask for image " + (name.empty() ? std::to_string(index) : name),
+                   "add " + wanted + ", white where all of the image is to be used");
+}
+
+GreyImage read_mask(const fs::path& mask, const ImageView& pixels, const std::string& image) {
+  GreyImage picture = decode_grey_file(mask);
+  if (picture.width() == pixels.width && picture.height() == pixels.height) return picture;
+  const auto size = [](int width, int height) {
+    return std::to_string(width) + "x" + std::to_string(height);
+  };
+  throw InputError(mask.string(),
+                   "the mask has " + size(picture.width(), picture.height()) + " pixels, " + image +
+                       " has " + size(pixels.width, pixels.height),
+                   "make it of the same size");
+}
+
+}  // namespace oneac
