@@ -1,4 +1,5 @@
 #include "drive_fixture.h"
+#include "g2o_solution.h"
 
 #include "oneac/evaluation/trajectory_io.h"
 
@@ -144,6 +145,55 @@ TEST_F(LoopsVerb, WriteTheClosedDriveBesideTheOther) {
   }
   EXPECT_EQ(edges, read_tum(out / "keyframes.tum").times.size() - 1 + loops);
   EXPECT_NE(read_file(out / "report.html").find("<h2>Loops</h2>"), std::string::npos);
+}
+
+/// [m] how far the poses lie apart at most.
+double farthest(const std::vector<Eigen::Isometry3d>& a, const std::vector<Eigen::Isometry3d>& b) {
+  EXPECT_EQ(a.size(), b.size());
+  double most = 0.0;
+  for (std::size_t i = 0; i < std::min(a.size(), b.size()); ++i) {
+    most = std::max(most, (a[i].translation() - b[i].translation()).norm());
+  }
+  return most;
+}
+
+TEST_F(LoopsVerb, WriteTheGraphThatWasSolved) {
+  const G2oGraph graph = read_g2o(folder("closed") / "graph.g2o");
+  const auto closed = read_tum(folder("closed") / "keyframes_optimised.tum").poses;
+  EXPECT_LT(farthest(least_squares(graph), closed), 1e-4);
+  EXPECT_GT(farthest(graph.vertices, closed), 0.01);
+}
+
+/// VERTEX3 of MRPT's text format: id x y z roll pitch yaw.
+std::vector<Eigen::Isometry3d> positions_of_mrpt(const fs::path& path) {
+  std::ifstream file(path);
+  std::vector<Eigen::Isometry3d> poses;
+  for (std::string line; std::getline(file, line);) {
+    std::istringstream in(line);
+    std::string key;
+    std::size_t id = 0;
+    Eigen::Vector3d t;
+    if (!(in >> key >> id >> t.x() >> t.y() >> t.z()) || key != "VERTEX3") continue;
+    poses.emplace_back(Eigen::Translation3d(t));
+  }
+  return poses;
+}
+
+// Its edges are CNetworkOfPoses3D's, which have no information.
+TEST_F(LoopsVerb, WriteAGraphThatMrptsGraphSlamSolvesWithItsEdgesWeighedAlike) {
+  const fs::path out = folder("closed") / "mrpt.graph";
+  const ProgramResult solved =
+      run_program({"graph-slam", "--3d", "--levmarq", "-q", "-i",
+                   (folder("closed") / "graph.g2o").string(), "-o", out.string()});
+  ASSERT_EQ(solved.exit_code, 0) << solved.err;
+  G2oGraph graph = read_g2o(folder("closed") / "graph.g2o");
+  // Turns in radians there, halves of them here.
+  for (G2oEdge& edge : graph.edges) {
+    edge.information.setIdentity();
+    edge.information.bottomRightCorner<3, 3>() *= 4.0;
+  }
+  EXPECT_LT(farthest(least_squares(graph), positions_of_mrpt(out)), 1e-3);
+  fs::remove(out);
 }
 
 TEST_F(LoopsVerb, ChangeNothingElse) {

@@ -20,8 +20,9 @@ using internal::Vector6;
 
 constexpr double kCauchy = 2.5;  // [σ of the whole residual] six Gaussian ones have a norm of 2.4
 constexpr double kChi2 = 22.46;  // χ² of six degrees of freedom, 99.9 %
-constexpr int kMostSolutions = 5;  // taking out what does not fit
+constexpr int kMostSolutions = 8;  // taking out what does not fit
 constexpr int kIterations = 100;
+constexpr double kTolerance = 1e-12;  // of the cost: well below a millimetre over a kilometre
 
 /// A pose as Ceres moves it: translation, then quaternion x y z w.
 using Block = std::array<double, 7>;
@@ -78,8 +79,11 @@ Eigen::Isometry3d isometry(const RelativePose& pose) {
   return T;
 }
 
+/// Of a loop: against those that are false, or none, when what is left is believed as it stands.
+enum class Loss { kRobust, kNone };
+
 void add_edges(const std::vector<LoopKeyframe>& keyframes, const std::vector<LoopConstraint>& loops,
-               std::vector<Block>& blocks, ceres::Problem& problem) {
+               Loss loss, std::vector<Block>& blocks, ceres::Problem& problem) {
   for (Block& block : blocks) {
     problem.AddParameterBlock(
         block.data(), 7,
@@ -93,20 +97,29 @@ void add_edges(const std::vector<LoopKeyframe>& keyframes, const std::vector<Loo
   }
   for (const LoopConstraint& loop : loops) {
     problem.AddResidualBlock(edge_cost(isometry(loop.T_2_1.inverse()), g2o_information(loop)),
-                             new ceres::CauchyLoss(kCauchy), blocks[loop.first].data(),
-                             blocks[loop.second].data());
+                             loss == Loss::kRobust ? new ceres::CauchyLoss(kCauchy) : nullptr,
+                             blocks[loop.first].data(), blocks[loop.second].data());
   }
 }
 
-bool solve(ceres::Problem& problem) {
+/// @return whether the poses are those of the least squares; else they stay
+bool solve(const std::vector<LoopKeyframe>& keyframes, const std::vector<LoopConstraint>& loops,
+           Loss loss, std::vector<Eigen::Isometry3d>& poses) {
+  std::vector<Block> blocks;
+  for (const Eigen::Isometry3d& T : poses) blocks.push_back(to_block(T));
+  ceres::Problem problem;
+  add_edges(keyframes, loops, loss, blocks, problem);
   ceres::Solver::Options options;
   options.linear_solver_type = ceres::SPARSE_NORMAL_CHOLESKY;
   options.max_num_iterations = kIterations;
+  options.function_tolerance = kTolerance;
   options.num_threads = 1;
   options.logging_type = ceres::SILENT;
   ceres::Solver::Summary summary;
   ceres::Solve(options, &problem, &summary);
-  return summary.IsSolutionUsable();
+  if (!summary.IsSolutionUsable()) return false;
+  std::transform(blocks.begin(), blocks.end(), poses.begin(), to_pose);
+  return true;
 }
 
 double squared_error(const LoopConstraint& loop, const std::vector<Eigen::Isometry3d>& poses) {
@@ -114,6 +127,17 @@ double squared_error(const LoopConstraint& loop, const std::vector<Eigen::Isomet
   const Vector6 e = internal::small_motion(measured.T.inverse() * poses[loop.first].inverse() *
                                            poses[loop.second]);
   return e.dot(measured.covariance.ldlt().solve(e));
+}
+
+/// @return whether there were loops that the poses disagree with
+bool take_out_strange(const std::vector<Eigen::Isometry3d>& poses,
+                      std::vector<LoopConstraint>& loops) {
+  const auto strange = std::remove_if(loops.begin(), loops.end(), [&](const LoopConstraint& loop) {
+    return squared_error(loop, poses) > kChi2;
+  });
+  const bool any = strange != loops.end();
+  loops.erase(strange, loops.end());
+  return any;
 }
 
 bool can_be_solved(const std::vector<LoopKeyframe>& keyframes) {
@@ -133,19 +157,13 @@ ClosedGraph optimise_pose_graph(const std::vector<LoopKeyframe>& keyframes,
   graph.loops = loops;
   const std::vector<Eigen::Isometry3d> before = graph.T_first_cam;
   if (!can_be_solved(keyframes)) graph.loops.clear();
+  Loss loss = Loss::kRobust;
   for (int round = 0; round < kMostSolutions && !graph.loops.empty(); ++round) {
-    std::vector<Block> blocks;
-    for (const Eigen::Isometry3d& T : before) blocks.push_back(to_block(T));
-    ceres::Problem problem;
-    add_edges(keyframes, graph.loops, blocks, problem);
-    graph.usable = solve(problem);
+    graph.usable = solve(keyframes, graph.loops, loss, graph.T_first_cam);
     if (!graph.usable) break;
-    std::transform(blocks.begin(), blocks.end(), graph.T_first_cam.begin(), to_pose);
-    const auto strange = std::remove_if(
-        graph.loops.begin(), graph.loops.end(),
-        [&](const LoopConstraint& loop) { return squared_error(loop, graph.T_first_cam) > kChi2; });
-    if (strange == graph.loops.end()) return graph;
-    graph.loops.erase(strange, graph.loops.end());
+    if (take_out_strange(graph.T_first_cam, graph.loops)) continue;
+    if (loss == Loss::kNone) return graph;
+    loss = Loss::kNone;
   }
   // Nothing left to close by, or no agreement in sight.
   graph.loops.clear();

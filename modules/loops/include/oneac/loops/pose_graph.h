@@ -16,9 +16,10 @@ struct ClosedGraph {
   bool usable = true;  ///< false: the optimiser found nothing better, poses are the odometry's
 };
 
-/// Least squares over the poses of all keyframes: steps of the odometry with their information, and
-/// loops with theirs under a Cauchy loss (Ceres, sparse Cholesky, one thread). A loop that lies
-/// beyond its own uncertainty in the end is taken out, and the rest solved anew.
+/// Least squares over the poses of all keyframes: steps of the odometry and loops with their
+/// information (Ceres, sparse Cholesky, one thread). A loop that lies beyond its own uncertainty is
+/// taken out, first of a solution under a Cauchy loss; the last solution has none, so that it is
+/// that of the graph as format_g2o() and format_g2o_loops() write it.
 [[nodiscard]] ClosedGraph optimise_pose_graph(const std::vector<LoopKeyframe>& keyframes,
                                               const std::vector<LoopConstraint>& loops);
 
