@@ -1,6 +1,7 @@
 #include "oneac/loops/pose_graph.h"
 
 #include "chain.h"
+#include "placement.h"
 
 #include <ceres/ceres.h>
 
@@ -11,6 +12,7 @@
 #include <cmath>
 #include <cstddef>
 #include <memory>
+#include <utility>
 
 namespace oneac {
 namespace {
@@ -89,8 +91,8 @@ void add_edges(const std::vector<LoopKeyframe>& keyframes, const std::vector<Loo
         block.data(), 7,
         new ceres::ProductManifold<ceres::EuclideanManifold<3>, ceres::EigenQuaternionManifold>());
   }
-  problem.SetParameterBlockConstant(blocks.front().data());
   for (std::size_t i = 1; i < keyframes.size(); ++i) {
+    if (keyframes[i - 1].log != keyframes[i].log) continue;
     const Eigen::Isometry3d T = keyframes[i - 1].T_first_cam.inverse() * keyframes[i].T_first_cam;
     problem.AddResidualBlock(edge_cost(T, g2o_information(keyframes[i])), nullptr,
                              blocks[i - 1].data(), blocks[i].data());
@@ -102,13 +104,23 @@ void add_edges(const std::vector<LoopKeyframe>& keyframes, const std::vector<Loo
   }
 }
 
-/// @return whether the poses are those of the least squares; else they stay
-bool solve(const std::vector<LoopKeyframe>& keyframes, const std::vector<LoopConstraint>& loops,
-           Loss loss, std::vector<Eigen::Isometry3d>& poses) {
+/// As the odometry and the joins of parts have them.
+void place(const std::vector<LoopKeyframe>& keyframes, ClosedGraph& graph) {
+  internal::Placement placement = internal::place_parts(keyframes, graph.loops);
+  graph.T_first_cam = std::move(placement.T_group_cam);
+  graph.group = std::move(placement.group);
+}
+
+/// The first of every frame stays. @return whether the poses are those of the least squares
+bool solve(const std::vector<LoopKeyframe>& keyframes, Loss loss, ClosedGraph& graph) {
+  place(keyframes, graph);
   std::vector<Block> blocks;
-  for (const Eigen::Isometry3d& T : poses) blocks.push_back(to_block(T));
+  for (const Eigen::Isometry3d& T : graph.T_first_cam) blocks.push_back(to_block(T));
   ceres::Problem problem;
-  add_edges(keyframes, loops, loss, blocks, problem);
+  add_edges(keyframes, graph.loops, loss, blocks, problem);
+  for (const std::size_t first : graph.group) {
+    problem.SetParameterBlockConstant(blocks[first].data());
+  }
   ceres::Solver::Options options;
   options.linear_solver_type = ceres::SPARSE_NORMAL_CHOLESKY;
   options.max_num_iterations = kIterations;
@@ -118,7 +130,7 @@ bool solve(const std::vector<LoopKeyframe>& keyframes, const std::vector<LoopCon
   ceres::Solver::Summary summary;
   ceres::Solve(options, &problem, &summary);
   if (!summary.IsSolutionUsable()) return false;
-  std::transform(blocks.begin(), blocks.end(), poses.begin(), to_pose);
+  std::transform(blocks.begin(), blocks.end(), graph.T_first_cam.begin(), to_pose);
   return true;
 }
 
@@ -153,13 +165,11 @@ bool can_be_solved(const std::vector<LoopKeyframe>& keyframes) {
 ClosedGraph optimise_pose_graph(const std::vector<LoopKeyframe>& keyframes,
                                 const std::vector<LoopConstraint>& loops) {
   ClosedGraph graph;
-  for (const LoopKeyframe& keyframe : keyframes) graph.T_first_cam.push_back(keyframe.T_first_cam);
   graph.loops = loops;
-  const std::vector<Eigen::Isometry3d> before = graph.T_first_cam;
   if (!can_be_solved(keyframes)) graph.loops.clear();
   Loss loss = Loss::kRobust;
   for (int round = 0; round < kMostSolutions && !graph.loops.empty(); ++round) {
-    graph.usable = solve(keyframes, graph.loops, loss, graph.T_first_cam);
+    graph.usable = solve(keyframes, loss, graph);
     if (!graph.usable) break;
     if (take_out_strange(graph.T_first_cam, graph.loops)) continue;
     if (loss == Loss::kNone) return graph;
@@ -167,7 +177,7 @@ ClosedGraph optimise_pose_graph(const std::vector<LoopKeyframe>& keyframes,
   }
   // Nothing left to close by, or no agreement in sight.
   graph.loops.clear();
-  graph.T_first_cam = before;
+  place(keyframes, graph);
   return graph;
 }
 
