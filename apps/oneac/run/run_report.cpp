@@ -117,6 +117,12 @@ void add_loops(HtmlPage& page, const DriveRecord& record, const RunEvaluation& e
                const ClosedDrive& closed) {
   page.heading("Loops");
   const std::size_t count = closed.graph.loops.size();
+  if (!closed.alone) {
+    page.paragraph("Closed together with other logs, whose report is in the folder above: " +
+                   std::to_string(closed.loops_to_others) +
+                   " loops lead there. Positions after are in the " + "frame of log " +
+                   std::to_string(closed.frame_of + 1) + ".");
+  }
   if (!closed.note.empty()) page.warning(closed.note);
   page.paragraph(
       count == 0 ? "No place of this drive was seen again so that its images prove it; the closed "

@@ -8,6 +8,7 @@
 #include <limits>
 #include <map>
 #include <optional>
+#include <set>
 #include <utility>
 
 namespace oneac::internal {
@@ -141,6 +142,15 @@ class Placings {
   const Chain& chain_;
 };
 
+/// The first of each keyframe: others of it share the errors of its features.
+Indices one_of_each(const Indices& some, const std::vector<LoopConstraint>& loops) {
+  std::set<std::size_t> seen;
+  Indices kept;
+  std::copy_if(some.begin(), some.end(), std::back_inserter(kept),
+               [&](std::size_t i) { return seen.insert(loops[i].second).second; });
+  return kept;
+}
+
 /// Those of the loops between two parts that join them; none where two placings are possible.
 Indices joining_pair(const Indices& all, const Placings& placings, double least_way_m) {
   const Indices best = placings.best_of(all);
@@ -191,7 +201,7 @@ std::vector<LoopConstraint> joining(const std::vector<LoopConstraint>& loops, co
   Indices kept;
   for (const auto& [parts, all] : pairs) {
     const bool known = parts.first == parts.second;
-    const Indices own = known ? all : joining_pair(all, placings, least_way_m);
+    const Indices own = known ? all : one_of_each(joining_pair(all, placings, least_way_m), loops);
     kept.insert(kept.end(), own.begin(), own.end());
   }
   std::sort(kept.begin(), kept.end());

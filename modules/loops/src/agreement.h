@@ -26,7 +26,7 @@ namespace oneac::internal {
 /// Without the loops between two parts of the way that do not join them beyond doubt: no odometry
 /// says where one part lies in the other, and places that look alike deceive all of a stretch. What
 /// stays are those that agree with one placing, over `least_way_m` of both parts, if the next best
-/// placing has less than half as many.
+/// placing has less than half as many; of each later keyframe the first.
 [[nodiscard]] std::vector<LoopConstraint> joining(const std::vector<LoopConstraint>& loops,
                                                   const Chain& chain, double least_way_m);
 
