@@ -93,9 +93,9 @@ std::vector<std::string> about_logs_apart(const std::vector<RecordedDrive>& driv
   std::vector<std::string> lines;
   for (const ClosedDrive& drive : closed.drives) {
     if (drive.frame_of == 0) continue;
-    std::string line = drives[drive.log].options->log + " is not joined to " +
-                       drives.front().options->log +
-                       ": no way of both shows beyond doubt that it is the same; its poses are in ";
+    std::string line =
+        drives[drive.log].options->log + " is not joined to " + drives.front().options->log +
+        ": no stretch proves beyond doubt that both saw one place; its poses are in ";
     line += drive.frame_of == drive.log ? std::string("its own frame")
                                         : "the frame of " + drives[drive.frame_of].options->log;
     lines.push_back(std::move(line));

@@ -1,5 +1,6 @@
 #include "run_loops.h"
 
+#include "keyframe_images.h"
 #include "odometry_edges.h"
 #include "terminal/interrupt.h"
 #include "terminal/progress_bar.h"
@@ -14,8 +15,6 @@
 
 #include <algorithm>
 #include <cstddef>
-#include <map>
-#include <memory>
 #include <optional>
 #include <utility>
 
@@ -67,69 +66,11 @@ LoopCamera camera_of(const DriveRecord& record, const RunOptions& options) {
   return camera;
 }
 
-/// A log once more, for the images of keyframes alone.
-class KeyframeImages {
- public:
-  KeyframeImages(const std::vector<Keyframe>& keyframes, const RunOptions& options)
-      : source_(source_options(options)) {
-    std::map<std::size_t, std::size_t> places;
-    for (std::size_t i = 0; i < keyframes.size(); ++i) places[keyframes[i].index] = i;
-    tickets_.resize(keyframes.size());
-    std::size_t found = 0;
-    while (found < places.size() && !interrupted()) {
-      const auto ticket = source_.next();
-      if (!ticket) return;
-      const auto at = places.find(ticket->index);
-      if (at == places.end()) continue;
-      tickets_[at->second] = *ticket;
-      ++found;
-    }
-  }
-
-  [[nodiscard]] std::size_t size() const { return tickets_.size(); }
-  /// Any thread. @throws InputError where the image has gone
-  [[nodiscard]] GreyImage load(std::size_t place) const {
-    return tickets_[place] ? source_.load(*tickets_[place]).image : GreyImage{};
-  }
-
- private:
-  static SourceOptions source_options(const RunOptions& options) {
-    SourceOptions source = options.source.for_log(options.log);
-    source.camera_model = options.camera_model;
-    return source;
-  }
-
-  RawlogSource source_;
-  std::vector<std::optional<FrameTicket>> tickets_;
-};
-
-/// The images of the keyframes of all logs, one log after the other.
-class ImagesOfLogs {
- public:
-  explicit ImagesOfLogs(const std::vector<RecordedDrive>& drives) {
-    for (const RecordedDrive& drive : drives) {
-      logs_.push_back(std::make_unique<KeyframeImages>(drive.record->keyframes, *drive.options));
-    }
-  }
-
-  /// Any thread. @throws InputError where the image has gone
-  [[nodiscard]] GreyImage load(std::size_t place) const {
-    for (const auto& log : logs_) {
-      if (place < log->size()) return log->load(place);
-      place -= log->size();
-    }
-    return {};
-  }
-
- private:
-  std::vector<std::unique_ptr<KeyframeImages>> logs_;
-};
-
 /// @pre there are keyframes
 FoundLoops find_loops(const std::vector<LoopKeyframe>& keyframes,
                       const std::vector<RecordedDrive>& drives) {
   const RunOptions& options = *drives.front().options;
-  const ImagesOfLogs images(drives);
+  const KeyframeImages images(drives);
   const DriveRecord& first = *drives[keyframes.front().log].record;
   LoopCloser closer(options.loops, camera_of(first, options),
                     [&](std::size_t place) { return images.load(place); });

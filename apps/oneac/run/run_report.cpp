@@ -124,12 +124,17 @@ void add_loops(HtmlPage& page, const DriveRecord& record, const RunEvaluation& e
                    std::to_string(closed.frame_of + 1) + ".");
   }
   if (!closed.note.empty()) page.warning(closed.note);
+  if (count == 0 && closed.loops_to_others > 0) {
+    page.figures({plot_svg(plan_of_loops(record, evaluation, closed))});
+    return;
+  }
   page.paragraph(
       count == 0 ? "No place of this drive was seen again so that its images prove it; the closed "
                    "trajectory is that of the odometry."
                  : std::to_string(count) +
                        " pairs of keyframes show one place (loops.csv); the drive before and after "
-                       "it was closed by them (trajectory_optimised_camera.tum).");
+                       "it was closed by them (trajectory_optimised_camera.tum). A line per loop "
+                       "joins its keyframes where they were before.");
   if (count > 0) page.figures({plot_svg(plan_of_loops(record, evaluation, closed))});
 }
 
