@@ -86,6 +86,15 @@ Table table_of(const std::vector<RecordedDrive>& drives, const ClosedDrives& clo
   return table;
 }
 
+/// Why a log has a frame of its own.
+std::string why_apart(const ClosedDrive& drive, const ClosedDrives& closed) {
+  if (!closed.searched) return "the search was not finished";
+  const bool metric = std::any_of(drive.keyframes.begin(), drive.keyframes.end(),
+                                  [](const LoopKeyframe& k) { return k.metric; });
+  if (!metric) return "it has no keyframe in metres";
+  return "no stretch proves beyond doubt that both saw one place";
+}
+
 }  // namespace
 
 std::vector<std::string> about_logs_apart(const std::vector<RecordedDrive>& drives,
@@ -93,9 +102,9 @@ std::vector<std::string> about_logs_apart(const std::vector<RecordedDrive>& driv
   std::vector<std::string> lines;
   for (const ClosedDrive& drive : closed.drives) {
     if (drive.frame_of == 0) continue;
-    std::string line =
-        drives[drive.log].options->log + " is not joined to " + drives.front().options->log +
-        ": no stretch proves beyond doubt that both saw one place; its poses are in ";
+    std::string line = drives[drive.log].options->log + " is not joined to " +
+                       drives.front().options->log + ": " + why_apart(drive, closed) +
+                       "; its poses are in ";
     line += drive.frame_of == drive.log ? std::string("its own frame")
                                         : "the frame of " + drives[drive.frame_of].options->log;
     lines.push_back(std::move(line));

@@ -194,6 +194,7 @@ ClosedDrives close_loops(const std::vector<RecordedDrive>& drives) {
   FoundLoops found;
   try {
     if (!closed.keyframes.empty() && !interrupted()) found = find_loops(closed.keyframes, drives);
+    closed.searched = !interrupted();
   } catch (const InputError& error) {
     closed.note = std::string("no loops: the images could not be read again: ") + error.what();
     found = {};

@@ -45,6 +45,7 @@ struct ClosedDrives {
   std::vector<LoopKeyframe> keyframes;  ///< of all, one log after the other
   LoopReport report;
   ClosedGraph graph;                ///< of all
+  bool searched = false;            ///< to the end
   std::vector<ClosedDrive> drives;  ///< each for itself, in the frame that it was joined to
   std::string note;                 ///< one line when the images could not be read again, else ""
 };
