@@ -1,13 +1,12 @@
 #include "commands.h"
 #include "run/result_files.h"
 #include "run/run_drive.h"
-#include "run/run_georeference.h"
 #include "run/run_gui.h"
+#include "run/run_logs.h"
 #include "run/run_loops.h"
 #include "run/run_options.h"
 #include "run/run_outputs.h"
-#include "run/run_report.h"
-#include "run/run_summary.h"
+#include "run/run_results.h"
 #include "terminal/interrupt.h"
 #include "terminal/key_flags.h"
 
@@ -32,6 +31,7 @@ namespace {
 /// What the flags say; they override parameter files, which were applied before.
 struct RunFlags {
   RunOptions options;
+  std::vector<std::string> logs;
   std::vector<std::string> parameter_files;
   std::vector<std::string> settings;
   std::vector<std::string> plugins;
@@ -42,58 +42,28 @@ struct RunFlags {
   bool loops = false;
 };
 
-bool learns_camera(const RunOptions& options) {
-  return options.front_end.self_calibration.refine != "off";
-}
-
-void write_all(const DriveRecord& record, const std::optional<ClosedDrive>& closed,
-               RunOptions& options, double wall_seconds) {
-  const std::filesystem::path folder(options.output);
-  write_drive(record, folder);
-  if (closed) write_closed_drive(record, *closed, folder);
-  const std::string camera =
-      learns_camera(options) ? used_camera_ini(record, options.log) : std::string();
-  if (!camera.empty()) write_file_atomically(folder / "camera.ini", camera);
-  write_file_atomically(folder / "params.yaml", options.result_parameters());
-  const ClosedDrive* loops = closed ? &*closed : nullptr;
-  const RunEvaluation evaluation = evaluate_record(record, options, loops);
-  const GeoreferenceResult& joined = evaluation.georeference;
-  write_georeferenced(record, joined, options.run.georeference, folder);
-  if (options.run.georeference && !joined.found && !options.run.quiet) {
-    std::cerr << "oneac: the drive is not joined to the GPS: " << printable(joined.reason) << '\n';
-  }
-  const std::string summary = summary_json(record, evaluation, options, wall_seconds, loops);
-  write_file_atomically(folder / "summary.json", summary);
-  write_file_atomically(folder / "report.html",
-                        report_html(record, evaluation, options, summary, loops));
-  write_file_atomically(folder / "files.json", manifest_json(folder, record.has_scale()));
-  std::cout << summary_text(record, evaluation)
-            << (closed ? text_about(*closed, evaluation.closed_against_poses) : std::string())
-            << "written to " << options.output << ": " << names_of_results(folder) << '\n';
-}
-
 /// Before the results of an earlier run are taken away: a mistyped name costs nobody a drive.
 void require_log(const std::string& log) {
   const std::string fault = fault_of_file(log);
   if (!fault.empty()) throw InputError(log, fault, "check the name of the log");
 }
 
-void run(RunFlags& flags) {
+/// What the flags ask for, in one place.
+void settle(RunFlags& flags) {
   RunOptions& options = flags.options;
-  for (const std::string& plugin : flags.plugins) load_plugin(plugin);
-  apply_settings(flags.parameter_files, flags.settings, options);
-  if (flags.print_params) {
-    std::cout << options.table().to_yaml(true);
-    return;
-  }
   if (flags.no_progress) options.run.progress = false;
   if (flags.quiet) options.run.quiet = true;
   if (flags.loops) options.run.loops = true;
   options.validate();
-  if (options.log.empty()) throw InputError("run", "no rawlog given", "oneac run LOG -o DIR");
+  if (flags.logs.empty()) throw InputError("run", "no rawlog given", "oneac run LOG -o DIR");
   if (options.output.empty()) throw InputError("run", "no output folder given", "add -o DIR");
   require_writable_folder(options.output);
-  require_log(options.log);
+  for (const std::string& log : flags.logs) require_log(log);
+}
+
+void run_one(RunFlags& flags) {
+  RunOptions& options = flags.options;
+  options.log = flags.logs.front();
   if (learns_camera(options)) require_no_other_camera(options.output);
   require_no_other_results(options.output);
   clear_of_earlier_run(options.output);
@@ -103,19 +73,30 @@ void run(RunFlags& flags) {
   RunObserver observer;
   if (gui) observer = [&](const RunMoment& moment) { gui->show(moment); };
   DriveRecord record = run_drive(options, observer);
-  std::optional<ClosedDrive> closed;
-  if (options.run.loops && !record.frames.empty()) closed = close_loops(record, options);
-  record.interrupted = record.interrupted || (closed && interrupted());
+  ClosedDrives closed;
+  const bool close = options.run.loops && !record.frames.empty();
+  if (close) closed = close_loops({{&record, &options}});
+  record.interrupted = record.interrupted || (close && interrupted());
   const std::chrono::duration<double> wall = std::chrono::steady_clock::now() - start;
-  if (!options.run.quiet) {
-    for (const std::string& note : notes_about(record))
-      std::cerr << "oneac: " << printable(note) << '\n';
-    if (closed && !closed->note.empty()) std::cerr << "oneac: " << printable(closed->note) << '\n';
-  }
+  const ClosedDrive* drive = close ? &closed.drives.front() : nullptr;
+  tell_notes(record, drive, options);
   fail_if_empty(record, options.log);
-  write_all(record, closed, options, wall.count());
+  write_results(record, drive, options, wall.count());
   if (gui && !record.interrupted) gui->wait(record);
   fail_if_incomplete(record);
+}
+
+void run(RunFlags& flags) {
+  for (const std::string& plugin : flags.plugins) load_plugin(plugin);
+  apply_settings(flags.parameter_files, flags.settings, flags.options);
+  if (flags.print_params) {
+    std::cout << flags.options.table().to_yaml(true);
+    return;
+  }
+  settle(flags);
+  if (flags.logs.size() == 1) return run_one(flags);
+  if (flags.gui) throw InputError("--gui", "shows one drive", "run the logs one by one with it");
+  run_logs(flags.logs, flags.options);
 }
 
 }  // namespace
@@ -123,7 +104,8 @@ void run(RunFlags& flags) {
 void add_run(CLI::App& program) {
   auto* verb = program.add_subcommand("run", "Computes the trajectory of a camera from a rawlog");
   auto flags = std::make_shared<RunFlags>();
-  verb->add_option("LOG", flags->options.log, "rawlog: plain, .gz or zstd");
+  verb->add_option("LOG", flags->logs,
+                   "rawlog: plain, .gz or zstd; several are joined where they overlap (--loops)");
   verb->add_option("-o,--output", flags->options.output, "folder for the results, made if missing");
   verb->add_option("--params", flags->parameter_files, "YAML with parameters; may be repeated")
       ->allow_extra_args(false);
@@ -143,7 +125,8 @@ void add_run(CLI::App& program) {
       "--georeference", [flags] { flags->settings.emplace_back("run.georeference=true"); },
       "write trajectory_enu.tum as well: the vehicle's way in the frame of the log's GPS");
   verb->add_flag("--loops", flags->loops,
-                 "find places seen again, measure them in metres, close the drive by them");
+                 "find places seen again, measure them in metres, close the drive by them; join "
+                 "several logs, whose results go to DIR/1, DIR/2, ...");
   verb->add_flag("--gui", flags->gui, "show the drive in a window while it is computed");
   verb->add_flag("--no-progress", flags->no_progress, "no progress bar");
   verb->add_flag("--quiet", flags->quiet, "no progress bar, notes or warnings");

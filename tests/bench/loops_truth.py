@@ -1,11 +1,12 @@
 #!/usr/bin/env python3
 """Loops of a run against the true poses of a simulated drive.
 
-    loops_truth.py DRIVE RUN     DRIVE: folder of oneac simulate, RUN: of oneac run --loops
+    loops_truth.py DRIVE RUN     DRIVE: folder with poses.txt, of oneac simulate or there_and_back.py,
+                                 RUN: of oneac run --loops
 
 Prints: loops; of the keyframes whose camera stands within 3 m and 15 degrees of an earlier keyframe's,
 more than 30 m of driving ago, the share that has a loop; errors; false loops (off by more than 1 m or
-3 degrees); how many lengths lie within two of their sigmas.
+3 degrees); how many lengths lie within two of their sigmas; how far from where it should be the drive ends.
 """
 import csv
 import math
@@ -75,11 +76,22 @@ def places_seen_again(keyframes, poses):
     return [k for i, k in enumerate(keyframes) if any(same(k, m) for m in keyframes[:i])]
 
 
-def main(drive, run):
+def poses_of(path):
     poses = []
-    for line in open(drive / "poses.txt"):
+    for line in open(path):
         v = [float(word) for word in line.split()]
         poses.append(([v[0:3], v[4:7], v[8:11]], [v[3], v[7], v[11]]))
+    return poses
+
+
+def end_of(poses):
+    """Where the last camera is in the first one's frame."""
+    (R, begin), (_, end) = poses[0], poses[-1]
+    return applied(transposed(R), minus(end, begin))
+
+
+def main(drive, run):
+    poses = poses_of(drive / "poses.txt")
     index_at = {t: i for i, t in enumerate(times_of(run / "trajectory_camera.tum"))}
     keyframes = [index_at[t] for t in times_of(run / "keyframes.tum")]
     rows = list(csv.DictReader(open(run / "loops.csv")))
@@ -96,6 +108,8 @@ def main(drive, run):
     print(f"rotation   median {quantile(turn, 0.5):.3f} deg, largest {max(turn):.3f} deg")
     print(f"false      {false}")
     print(f"length within two sigmas {100.0 * sum(s < 2.0 for s in sigmas) / len(rows):.1f} %")
+    off = [math.dist(end_of(poses_of(run / f"trajectory_{name}camera.kitti")), end_of(poses)) for name in ("", "optimised_")]
+    print(f"end        off by {off[0]:.3f} m before, {off[1]:.3f} m after")
 
 
 if __name__ == "__main__":

@@ -1,4 +1,5 @@
 #include "drive_fixture.h"
+#include "g2o_solution.h"
 
 #include "oneac/evaluation/trajectory_io.h"
 
@@ -146,6 +147,55 @@ TEST_F(LoopsVerb, WriteTheClosedDriveBesideTheOther) {
   EXPECT_NE(read_file(out / "report.html").find("<h2>Loops</h2>"), std::string::npos);
 }
 
+/// [m] how far the poses lie apart at most.
+double farthest(const std::vector<Eigen::Isometry3d>& a, const std::vector<Eigen::Isometry3d>& b) {
+  EXPECT_EQ(a.size(), b.size());
+  double most = 0.0;
+  for (std::size_t i = 0; i < std::min(a.size(), b.size()); ++i) {
+    most = std::max(most, (a[i].translation() - b[i].translation()).norm());
+  }
+  return most;
+}
+
+TEST_F(LoopsVerb, WriteTheGraphThatWasSolved) {
+  const G2oGraph graph = read_g2o(folder("closed") / "graph.g2o");
+  const auto closed = read_tum(folder("closed") / "keyframes_optimised.tum").poses;
+  EXPECT_LT(farthest(least_squares(graph), closed), 1e-4);
+  EXPECT_GT(farthest(graph.vertices, closed), 0.01);
+}
+
+/// VERTEX3 of MRPT's text format: id x y z roll pitch yaw.
+std::vector<Eigen::Isometry3d> positions_of_mrpt(const fs::path& path) {
+  std::ifstream file(path);
+  std::vector<Eigen::Isometry3d> poses;
+  for (std::string line; std::getline(file, line);) {
+    std::istringstream in(line);
+    std::string key;
+    std::size_t id = 0;
+    Eigen::Vector3d t;
+    if (!(in >> key >> id >> t.x() >> t.y() >> t.z()) || key != "VERTEX3") continue;
+    poses.emplace_back(Eigen::Translation3d(t));
+  }
+  return poses;
+}
+
+// Its edges are CNetworkOfPoses3D's, which have no information.
+TEST_F(LoopsVerb, WriteAGraphThatMrptsGraphSlamSolvesWithItsEdgesWeighedAlike) {
+  const fs::path out = folder("closed") / "mrpt.graph";
+  const ProgramResult solved =
+      run_program({"graph-slam", "--3d", "--levmarq", "-q", "-i",
+                   (folder("closed") / "graph.g2o").string(), "-o", out.string()});
+  ASSERT_EQ(solved.exit_code, 0) << solved.err;
+  G2oGraph graph = read_g2o(folder("closed") / "graph.g2o");
+  // Turns in radians there, halves of them here.
+  for (G2oEdge& edge : graph.edges) {
+    edge.information.setIdentity();
+    edge.information.bottomRightCorner<3, 3>() *= 4.0;
+  }
+  EXPECT_LT(farthest(least_squares(graph), positions_of_mrpt(out)), 1e-3);
+  fs::remove(out);
+}
+
 TEST_F(LoopsVerb, ChangeNothingElse) {
   run("block", "open", {"--threads", "1"});
   for (const char* name :
@@ -185,6 +235,130 @@ TEST_F(LoopsVerb, NeedMetres) {
   EXPECT_TRUE(read_csv(folder("unscaled") / "loops.csv").empty());
   const auto summary = nlohmann::json::parse(read_file(folder("unscaled") / "summary.json"));
   EXPECT_EQ(summary["loops"]["keyframes_not_metric"], summary["loops"]["keyframes"]);
+}
+
+/// The first streets of a block, twice at different speeds, and of another block.
+class LogsTogether : public ::testing::Test {
+ protected:
+  static inline std::unique_ptr<TemporaryFolder> shared;
+  static inline ProgramResult joined;
+
+  static void SetUpTestSuite() {
+    shared = std::make_unique<TemporaryFolder>();
+    simulate("a", {"--seed", "3"});
+    simulate("b", {"--seed", "3", "--speed", "6.5"});
+    simulate("other", {"--seed", "4"});
+    joined = run({"a", "b", "other"}, "joined", {"--loops", "--count", "120"});
+    ASSERT_EQ(joined.exit_code, 0) << joined.err;
+  }
+  static void TearDownTestSuite() { shared.reset(); }
+
+  static fs::path folder(const std::string& name) { return shared->path() / name; }
+  static std::string log_of(const std::string& name) {
+    return (folder(name) / "simulated.rawlog").string();
+  }
+  static void simulate(const std::string& name, const std::vector<std::string>& extra,
+                       const std::string& focal_px = "312") {
+    std::vector<std::string> arguments{"simulate",
+                                       "-o",
+                                       folder(name).string(),
+                                       "--route",
+                                       "block",
+                                       "--laps",
+                                       "1",
+                                       "--block-m",
+                                       "40",
+                                       "--width",
+                                       "400",
+                                       "--height",
+                                       "300",
+                                       "--focal",
+                                       focal_px,
+                                       "--no-progress"};
+    arguments.insert(arguments.end(), extra.begin(), extra.end());
+    const ProgramResult made = oneac_program(arguments);
+    ASSERT_EQ(made.exit_code, 0) << made.err;
+  }
+  static ProgramResult run(const std::vector<std::string>& names, const std::string& out,
+                           const std::vector<std::string>& extra) {
+    std::vector<std::string> arguments{"run"};
+    for (const std::string& name : names) arguments.push_back(log_of(name));
+    arguments.insert(arguments.end(), {"-o", folder(out).string(), "--no-progress"});
+    arguments.insert(arguments.end(), extra.begin(), extra.end());
+    return oneac_program(arguments);
+  }
+};
+
+TEST_F(LogsTogether, HaveLoopsWhereTheySawOnePlaceAndNoneWhereNot) {
+  const Trajectory a = read_kitti(folder("a") / "poses.txt");
+  const Trajectory b = read_kitti(folder("b") / "poses.txt");  // begins where the other does
+  std::size_t between = 0;
+  for (const Row& loop : read_csv(folder("joined") / "loops.csv")) {
+    if (loop.at("log1") == loop.at("log2")) continue;
+    ++between;
+    ASSERT_EQ(loop.at("log1"), 1.0);
+    ASSERT_EQ(loop.at("log2"), 2.0);
+    const Eigen::Isometry3d T = b.poses.at(static_cast<std::size_t>(loop.at("index2"))).inverse() *
+                                a.poses.at(static_cast<std::size_t>(loop.at("index1")));
+    const Eigen::Vector3d t(loop.at("tx"), loop.at("ty"), loop.at("tz"));
+    EXPECT_LT((t - T.translation()).norm(), 0.3) << loop.at("index1") << " " << loop.at("index2");
+  }
+  EXPECT_GT(between, 40U);
+  const auto summary = nlohmann::json::parse(read_file(folder("joined") / "summary.json"));
+  EXPECT_EQ(summary["loops"]["between_logs"], between);
+  EXPECT_TRUE(summary["logs"][1]["joined_to_first"]);
+  EXPECT_FALSE(summary["logs"][2]["joined_to_first"]);
+  EXPECT_NE(joined.err.find("other/simulated.rawlog is not joined to"), std::string::npos)
+      << joined.err;
+  EXPECT_NE(joined.out.find("2 of 3 logs in the frame of"), std::string::npos) << joined.out;
+}
+
+TEST_F(LogsTogether, StandInOneFrame) {
+  const Trajectory truth = read_kitti(folder("b") / "poses.txt");
+  const auto poses = read_tum(folder("joined") / "2" / "trajectory_optimised_camera.tum").poses;
+  ASSERT_EQ(poses.size(), 120U);
+  for (std::size_t i = 0; i < poses.size(); ++i) {
+    EXPECT_LT((poses[i].translation() - truth.poses[i].translation()).norm(), 0.6) << i;
+  }
+  const G2oGraph graph = read_g2o(folder("joined") / "graph.g2o");
+  std::size_t keyframes = 0;
+  for (const char* log : {"1", "2", "3"}) {
+    keyframes += read_tum(folder("joined") / log / "keyframes.tum").poses.size();
+  }
+  EXPECT_EQ(graph.vertices.size(), keyframes);
+  EXPECT_NE(read_file(folder("joined") / "report.html").find("loops between logs"),
+            std::string::npos);
+}
+
+TEST_F(LogsTogether, HaveTheFilesOfARunOfTheirOwn) {
+  const ProgramResult alone = run({"b"}, "alone", {"--count", "120"});
+  ASSERT_EQ(alone.exit_code, 0) << alone.err;
+  for (const char* name : {"trajectory_camera.kitti", "trajectory_vehicle.tum",
+                           "relative_poses.csv", "covariance.csv", "keyframes.tum"}) {
+    EXPECT_EQ(read_file(folder("joined") / "2" / name), read_file(folder("alone") / name)) << name;
+  }
+}
+
+TEST_F(LogsTogether, LeaveNothingToTheNextRunInTheirFolder) {
+  ASSERT_EQ(run({"a", "b"}, "again", {"--loops", "--count", "6"}).exit_code, 0);
+  ASSERT_TRUE(fs::exists(folder("again") / "2" / "summary.json"));
+  ASSERT_EQ(run({"a"}, "again", {"--count", "6"}).exit_code, 0);
+  EXPECT_FALSE(fs::exists(folder("again") / "2" / "summary.json"));
+  EXPECT_FALSE(fs::exists(folder("again") / "loops.csv"));
+}
+
+TEST_F(LogsTogether, AreRefusedInALineWhereTheyCannotBeJoined) {
+  simulate("wide", {"--seed", "3"}, "280");
+  const auto refused = [&](const ProgramResult& result, const std::string& why) {
+    EXPECT_EQ(result.exit_code, 2) << result.out;
+    EXPECT_NE(result.err.find(why), std::string::npos) << result.err;
+    EXPECT_EQ(std::count(result.err.begin(), result.err.end(), '\n'), 1) << result.err;
+  };
+  refused(run({"a", "b"}, "no", {}), "add --loops");
+  refused(run({"a", "a"}, "no", {"--loops"}), "is given twice");
+  refused(run({"a", "wide"}, "no", {"--loops"}), "its camera is another");
+  refused(run({"a", "b"}, "no", {"--loops", "--reference", "poses.txt"}), "belongs to one log");
+  refused(run({"a", "b"}, "no", {"--loops", "--gui"}), "shows one drive");
 }
 
 }  // namespace

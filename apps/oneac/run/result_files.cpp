@@ -13,6 +13,7 @@
 #include <iterator>
 #include <string_view>
 #include <system_error>
+#include <vector>
 
 namespace oneac::app {
 namespace {
@@ -147,9 +148,24 @@ nlohmann::ordered_json entry_of(const ResultFile& file, const std::filesystem::p
   return entry;
 }
 
+/// Those of an earlier run of several logs: 1, 2, … beside its summary. Of another run, none.
+std::vector<std::filesystem::path> folders_of_logs(const std::filesystem::path& folder) {
+  std::ifstream in(folder / "summary.json");
+  const auto summary = nlohmann::json::parse(in, nullptr, false);
+  std::vector<std::filesystem::path> folders;
+  if (!summary.is_object() || !summary.contains("logs")) return folders;
+  std::error_code ignored;
+  for (std::size_t i = 1; i <= summary["logs"].size(); ++i) {
+    const std::filesystem::path log = folder / std::to_string(i);
+    if (std::filesystem::is_directory(log, ignored)) folders.push_back(log);
+  }
+  return folders;
+}
+
 }  // namespace
 
 void clear_of_earlier_run(const std::filesystem::path& folder) {
+  for (const std::filesystem::path& log : folders_of_logs(folder)) clear_of_earlier_run(log);
   for (const ResultFile& result : kFiles) {
     const std::filesystem::path file = replaced_file(folder / result.name);
     std::error_code ignored;

@@ -6,7 +6,8 @@
 namespace oneac::app {
 
 /// Takes the files of an earlier run out of the folder: it holds those of one run only. What no run
-/// writes stays. @throws OutputError naming what has the name of a result and is no file
+/// writes stays; the folders 1, 2, … of a run of several logs are cleared, too. @throws OutputError
+/// naming what has the name of a result and is no file
 void clear_of_earlier_run(const std::filesystem::path& folder);
 
 /// Before a drive that writes camera.ini: one that no run has written, such as that of oneac

@@ -1,5 +1,6 @@
 #include "run_loops.h"
 
+#include "keyframe_images.h"
 #include "odometry_edges.h"
 #include "terminal/interrupt.h"
 #include "terminal/progress_bar.h"
@@ -16,7 +17,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <map>
+#include <optional>
 #include <utility>
 
 namespace oneac::app {
@@ -33,6 +34,26 @@ LoopKeyframe to_loop_keyframe(const Keyframe& keyframe, const DriveRecord& recor
   const auto& step = record.frames.at(keyframe.frame).step;
   out.scale_sigma = step && step->metric ? step->length_sigma : record.common_length_sigma;
   return out;
+}
+
+/// The keyframes of the drives, one log after the other, each with an id of its own.
+std::vector<LoopKeyframe> loop_keyframes(const std::vector<RecordedDrive>& drives) {
+  std::vector<LoopKeyframe> all;
+  for (std::size_t log = 0; log < drives.size(); ++log) {
+    const DriveRecord& record = *drives[log].record;
+    const std::size_t first_id = log == 0 ? 0 : all.empty() ? 0 : all.back().id + 1;
+    for (std::size_t i = 0; i < record.keyframes.size(); ++i) {
+      LoopKeyframe keyframe = to_loop_keyframe(record.keyframes[i], record);
+      keyframe.log = log;
+      keyframe.id += first_id;
+      if (i > 0) {
+        keyframe.covariance =
+            covariance_between(record.keyframes[i - 1], record.keyframes[i], record);
+      }
+      all.push_back(keyframe);
+    }
+  }
+  return all;
 }
 
 LoopCamera camera_of(const DriveRecord& record, const RunOptions& options) {
@@ -67,46 +88,13 @@ AffineFeatures outside(const GreyImage& mask, AffineFeatures features) {
   return kept;
 }
 
-/// The log once more, for the images of keyframes alone.
-class KeyframeImages {
- public:
-  KeyframeImages(const std::vector<LoopKeyframe>& keyframes, const RunOptions& options)
-      : keyframes_(keyframes), source_(source_options(options)) {
-    std::map<std::size_t, std::size_t> places;
-    for (std::size_t i = 0; i < keyframes.size(); ++i) places[keyframes[i].index] = i;
-    tickets_.resize(keyframes.size());
-    std::size_t found = 0;
-    while (found < places.size() && !interrupted()) {
-      const auto ticket = source_.next();
-      if (!ticket) return;
-      const auto at = places.find(ticket->index);
-      if (at == places.end()) continue;
-      tickets_[at->second] = *ticket;
-      ++found;
-    }
-  }
-
-  /// Any thread. @throws InputError where the image has gone
-  [[nodiscard]] CameraFrame load(std::size_t place) const {
-    return tickets_[place] ? source_.load(*tickets_[place]) : CameraFrame{};
-  }
-
- private:
-  static SourceOptions source_options(const RunOptions& options) {
-    SourceOptions source = options.source.for_log(options.log);
-    source.camera_model = options.camera_model;
-    return source;
-  }
-
-  const std::vector<LoopKeyframe>& keyframes_;
-  RawlogSource source_;
-  std::vector<std::optional<FrameTicket>> tickets_;
-};
-
-FoundLoops find_loops(const std::vector<LoopKeyframe>& keyframes, const DriveRecord& record,
-                      const RunOptions& options) {
-  const KeyframeImages images(keyframes, options);
-  LoopCloser closer(options.loops, camera_of(record, options),
+/// @pre there are keyframes
+FoundLoops find_loops(const std::vector<LoopKeyframe>& keyframes,
+                      const std::vector<RecordedDrive>& drives) {
+  const RunOptions& options = *drives.front().options;
+  const KeyframeImages images(drives);
+  const DriveRecord& first = *drives[keyframes.front().log].record;
+  LoopCloser closer(options.loops, camera_of(first, options),
                     [&](std::size_t place) { return images.load(place).image; });
   ProgressBar progress(options.run.progress && !options.run.quiet, "keyframes");
   progress.expect(keyframes.size());
@@ -161,6 +149,39 @@ std::vector<Eigen::Isometry3d> moved_frames(const DriveRecord& record,
   return frames;
 }
 
+/// One log of several: its keyframes [begin, end), and the loops that begin and end there.
+ClosedDrive drive_of(const ClosedDrives& all, std::size_t begin, std::size_t end,
+                     const std::vector<RecordedDrive>& drives, std::size_t log) {
+  const DriveRecord& record = *drives[log].record;
+  ClosedDrive drive;
+  drive.log = log;
+  drive.frame_of = begin == end ? log : all.keyframes[all.graph.group[begin]].log;
+  drive.alone = drives.size() == 1;
+  drive.report = all.report;
+  drive.note = all.note;
+  drive.frame_mount = drives[drive.frame_of].record->mount();
+  for (std::size_t i = begin; i < end; ++i) {
+    drive.keyframes.push_back(all.keyframes[i]);
+    drive.keyframes.back().log = 0;
+    drive.keyframes.back().id = record.keyframes[i - begin].id;
+    drive.graph.T_first_cam.push_back(all.graph.T_first_cam[i]);
+    drive.graph.group.push_back(0);
+  }
+  const auto is_own = [&](std::size_t keyframe) { return keyframe >= begin && keyframe < end; };
+  for (LoopConstraint loop : all.graph.loops) {
+    const bool first = is_own(loop.first), second = is_own(loop.second);
+    if (first != second) ++drive.loops_to_others;
+    if (!first || !second) continue;
+    loop.first -= begin;
+    loop.second -= begin;
+    drive.graph.loops.push_back(loop);
+  }
+  const bool moved = !drive.graph.loops.empty() || drive.loops_to_others > 0;
+  drive.frames =
+      moved ? moved_frames(record, drive.graph.T_first_cam) : record.camera_trajectory().poses;
+  return drive;
+}
+
 }  // namespace
 
 Trajectory ClosedDrive::camera_trajectory(const DriveRecord& record) const {
@@ -172,7 +193,7 @@ Trajectory ClosedDrive::camera_trajectory(const DriveRecord& record) const {
 Trajectory ClosedDrive::vehicle_trajectory(const DriveRecord& record) const {
   const Eigen::Isometry3d T = record.mount();
   Trajectory trajectory = camera_trajectory(record);
-  for (Eigen::Isometry3d& pose : trajectory.poses) pose = T * pose * T.inverse();
+  for (Eigen::Isometry3d& pose : trajectory.poses) pose = frame_mount * pose * T.inverse();
   return trajectory;
 }
 
@@ -190,19 +211,13 @@ std::vector<Keyframe> ClosedDrive::moved_keyframes(const DriveRecord& record) co
   return moved;
 }
 
-ClosedDrive close_loops(const DriveRecord& record, const RunOptions& options) {
-  ClosedDrive closed;
-  for (const Keyframe& keyframe : record.keyframes) {
-    closed.keyframes.push_back(to_loop_keyframe(keyframe, record));
-    if (closed.keyframes.size() == 1) continue;
-    const Keyframe& before = record.keyframes[closed.keyframes.size() - 2];
-    closed.keyframes.back().covariance = covariance_between(before, keyframe, record);
-  }
+ClosedDrives close_loops(const std::vector<RecordedDrive>& drives) {
+  ClosedDrives closed;
+  closed.keyframes = loop_keyframes(drives);
   FoundLoops found;
   try {
-    if (!closed.keyframes.empty() && !interrupted()) {
-      found = find_loops(closed.keyframes, record, options);
-    }
+    if (!closed.keyframes.empty() && !interrupted()) found = find_loops(closed.keyframes, drives);
+    closed.searched = !interrupted();
   } catch (const InputError& error) {
     closed.note = std::string("no loops: the images could not be read again: ") + error.what();
     found = {};
@@ -210,8 +225,12 @@ ClosedDrive close_loops(const DriveRecord& record, const RunOptions& options) {
   closed.report = found.report;
   closed.graph = optimise_pose_graph(closed.keyframes, found.loops);
   closed.report.contradicted += found.loops.size() - closed.graph.loops.size();
-  closed.frames = closed.graph.loops.empty() ? record.camera_trajectory().poses
-                                             : moved_frames(record, closed.graph.T_first_cam);
+  std::size_t begin = 0;
+  for (std::size_t log = 0; log < drives.size(); ++log) {
+    const std::size_t end = begin + drives[log].record->keyframes.size();
+    closed.drives.push_back(drive_of(closed, begin, end, drives, log));
+    begin = end;
+  }
   return closed;
 }
 
@@ -236,14 +255,51 @@ void write_closed_drive(const DriveRecord& record, const ClosedDrive& closed,
   write("map.simplemap", format_simple_map(moved.keyframes, record.mount(), record.camera));
 }
 
+void write_closed_drives(const std::vector<RecordedDrive>& drives, const ClosedDrives& closed,
+                         const std::filesystem::path& folder) {
+  write_file_atomically(folder / "loops.csv", format_loops(closed.graph.loops, closed.keyframes));
+  std::string graph;
+  std::vector<Keyframe> together;
+  std::size_t begin = 0;
+  for (std::size_t log = 0; log < drives.size(); ++log) {
+    const DriveRecord& record = *drives[log].record;
+    const ClosedDrive& drive = closed.drives[log];
+    std::vector<Keyframe> chain = keyframes_by_steps(record);
+    for (std::size_t i = 0; i < chain.size(); ++i) {
+      chain[i].id = closed.keyframes[begin + i].id;
+      chain[i].T_first_cam = drive.graph.T_first_cam.front() *
+                             record.keyframes.front().T_first_cam.inverse() *
+                             record.keyframes[i].T_first_cam;
+    }
+    graph += format_g2o(chain);
+    begin += chain.size();
+    if (drive.frame_of != 0) continue;
+    const std::vector<Keyframe> moved = drive.moved_keyframes(record);
+    together.insert(together.end(), moved.begin(), moved.end());
+  }
+  write_file_atomically(folder / "graph.g2o",
+                        graph + format_g2o_loops(closed.graph.loops, closed.keyframes));
+  const DriveRecord& first = *drives.front().record;
+  write_file_atomically(folder / "points.ply",
+                        [&](std::ostream& out) { write_ply(together, out); });
+  write_file_atomically(folder / "map.simplemap",
+                        format_simple_map(together, first.mount(), first.camera));
+}
+
 std::string text_about(const ClosedDrive& closed, const std::optional<Evaluation>& after) {
-  std::string text = std::to_string(closed.graph.loops.size()) + " loops of " +
-                     std::to_string(closed.report.keyframes) + " keyframes";
-  if (closed.report.not_metric > 0) {
+  std::string text =
+      std::to_string(closed.graph.loops.size()) + " loops of " +
+      std::to_string(closed.alone ? closed.report.keyframes : closed.keyframes.size()) +
+      " keyframes";
+  if (closed.loops_to_others > 0) {
+    text += ", " + std::to_string(closed.loops_to_others) + " to other logs";
+  }
+  if (closed.alone && closed.report.not_metric > 0) {
     text +=
         " (" + std::to_string(closed.report.not_metric) + " of them without metres: none there)";
   }
-  if (after && after->trajectory && !closed.graph.loops.empty()) {
+  const bool moved = !closed.graph.loops.empty() || closed.loops_to_others > 0;
+  if (after && after->trajectory && moved) {
     text += ", APE after them " + significant_text(after->trajectory->ape.rmse, 3) + " m (RMS)";
   }
   return text + '\n';

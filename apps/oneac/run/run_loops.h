@@ -15,13 +15,17 @@
 
 namespace oneac::app {
 
-/// A drive with its loops closed.
+/// A drive with its loops closed, alone or together with those of other logs.
 struct ClosedDrive {
-  std::vector<LoopKeyframe> keyframes;  ///< of the record, as the odometry left them
-  LoopReport report;
-  ClosedGraph graph;
+  std::vector<LoopKeyframe> keyframes;    ///< of the record, as the odometry left them
+  LoopReport report;                      ///< of the search, which may be in several logs
+  ClosedGraph graph;                      ///< its own keyframes and the loops between them
   std::vector<Eigen::Isometry3d> frames;  ///< T_first_cam of every processed frame, closed
-  std::string note;  ///< one line when the images could not be read again, else ""
+  Eigen::Isometry3d frame_mount = Eigen::Isometry3d::Identity();  ///< T_vehicle_cam of that first
+  std::string note;                   ///< one line when the images could not be read again, else ""
+  std::size_t log = 0, frame_of = 0;  ///< which of the logs, and whose first camera the frame is
+  std::size_t loops_to_others = 0;    ///< loops that end in another log
+  bool alone = true;                  ///< the only log
 
   /// The record's trajectories with the closed poses.
   [[nodiscard]] Trajectory camera_trajectory(const DriveRecord& record) const;
@@ -30,14 +34,36 @@ struct ClosedDrive {
   [[nodiscard]] std::vector<Keyframe> moved_keyframes(const DriveRecord& record) const;
 };
 
-/// Reads the keyframes' images of the log once more, finds loops and closes the drive by them. What
-/// cannot be read again, or was interrupted, ends without loops.
-[[nodiscard]] ClosedDrive close_loops(const DriveRecord& record, const RunOptions& options);
+/// A drive, and how its log is read.
+struct RecordedDrive {
+  const DriveRecord* record = nullptr;
+  const RunOptions* options = nullptr;
+};
+
+/// Drives of several logs, closed together.
+struct ClosedDrives {
+  std::vector<LoopKeyframe> keyframes;  ///< of all, one log after the other
+  LoopReport report;
+  ClosedGraph graph;                ///< of all
+  bool searched = false;            ///< to the end
+  std::vector<ClosedDrive> drives;  ///< each for itself, in the frame that it was joined to
+  std::string note;                 ///< one line when the images could not be read again, else ""
+};
+
+/// Reads the keyframes' images of the logs once more, finds loops in each and between them, and
+/// closes the drives by them. What cannot be read again, or was interrupted, ends without loops.
+/// @pre one camera took all of them
+[[nodiscard]] ClosedDrives close_loops(const std::vector<RecordedDrive>& drives);
 
 /// Behind write_drive(): loops.csv, the optimised trajectories and keyframes, loops as edges in
 /// graph.g2o, map.simplemap and points.ply of the closed drive; each whole or not at all.
 void write_closed_drive(const DriveRecord& record, const ClosedDrive& closed,
                         const std::filesystem::path& folder);
+
+/// loops.csv and graph.g2o of all drives, map.simplemap and points.ply of those in the frame of the
+/// first; each whole or not at all.
+void write_closed_drives(const std::vector<RecordedDrive>& drives, const ClosedDrives& closed,
+                         const std::filesystem::path& folder);
 
 /// The line about loops that `oneac run` prints, with the APE after them.
 /// @param after  of the closed trajectory; empty without a reference

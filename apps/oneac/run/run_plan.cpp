@@ -132,16 +132,20 @@ Plot plan_of_loops(const DriveRecord& record, const RunEvaluation& evaluation,
                    const ClosedDrive& closed) {
   Plot plan{"Before and after, first heading up", "m", "", {}, false, Axes::kPlan};
   const Eigen::Matrix3d R = record.mount().linear();
+  // Both begin at one place, wherever other logs have put it.
+  const Eigen::Isometry3d T_start =
+      closed.frames.front() * record.frames.front().T_first_cam.inverse();
   Points before, after;
   for (std::size_t i = 0; i < record.frames.size(); ++i) {
-    before.push_back(from_above(R, record.frames[i].T_first_cam.translation()));
+    before.push_back(from_above(R, T_start * record.frames[i].T_first_cam.translation()));
     after.push_back(from_above(R, closed.frames[i].translation()));
   }
   plan.series = {series_of("after", Pen::kLine, after), series_of("before", Pen::kLine, before)};
   PlotSeries loops{"loops", {}, {}, Pen::kLine};
   for (const LoopConstraint& loop : closed.graph.loops) {
     for (const std::size_t end : {loop.first, loop.second}) {
-      const Eigen::Vector2d p = from_above(R, record.keyframes[end].T_first_cam.translation());
+      const Eigen::Vector2d p =
+          from_above(R, T_start * record.keyframes[end].T_first_cam.translation());
       loops.x.push_back(p.x());
       loops.y.push_back(p.y());
     }

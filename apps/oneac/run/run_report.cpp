@@ -117,13 +117,24 @@ void add_loops(HtmlPage& page, const DriveRecord& record, const RunEvaluation& e
                const ClosedDrive& closed) {
   page.heading("Loops");
   const std::size_t count = closed.graph.loops.size();
+  if (!closed.alone) {
+    page.paragraph("Closed together with other logs, whose report is in the folder above: " +
+                   std::to_string(closed.loops_to_others) +
+                   " loops lead there. Positions after are in the " + "frame of log " +
+                   std::to_string(closed.frame_of + 1) + ".");
+  }
   if (!closed.note.empty()) page.warning(closed.note);
+  if (count == 0 && closed.loops_to_others > 0) {
+    page.figures({plot_svg(plan_of_loops(record, evaluation, closed))});
+    return;
+  }
   page.paragraph(
       count == 0 ? "No place of this drive was seen again so that its images prove it; the closed "
                    "trajectory is that of the odometry."
                  : std::to_string(count) +
                        " pairs of keyframes show one place (loops.csv); the drive before and after "
-                       "it was closed by them (trajectory_optimised_camera.tum).");
+                       "it was closed by them (trajectory_optimised_camera.tum). A line per loop "
+                       "joins its keyframes where they were before.");
   if (count > 0) page.figures({plot_svg(plan_of_loops(record, evaluation, closed))});
 }
 

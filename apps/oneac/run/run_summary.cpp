@@ -214,12 +214,18 @@ Json timing_json(const DriveRecord& record, const RunOptions& options, double wa
 Json loops_json(const ClosedDrive& closed, const RunEvaluation& evaluation) {
   const LoopReport& report = closed.report;
   Json json = {{"loops", closed.graph.loops.size()},
-               {"keyframes", report.keyframes},
-               {"keyframes_not_metric", report.not_metric},
-               {"pairs_alike", report.candidates},
-               {"pairs_verified", report.verified},
-               {"refused_by_odometry", report.impossible},
-               {"refused_by_other_loops", report.contradicted}};
+               {"keyframes", closed.alone ? report.keyframes : closed.keyframes.size()}};
+  if (closed.alone) {
+    json.update({{"keyframes_not_metric", report.not_metric},
+                 {"pairs_alike", report.candidates},
+                 {"pairs_verified", report.verified},
+                 {"refused_by_odometry", report.impossible},
+                 {"refused_by_other_loops", report.contradicted}});
+  } else {
+    json.update({{"loops_to_other_logs", closed.loops_to_others},
+                 {"log", closed.log + 1},
+                 {"frame_of_log", closed.frame_of + 1}});
+  }
   const auto& after = evaluation.closed_against_poses;
   if (!after || !after->trajectory || !evaluation.against_poses->trajectory) return json;
   json["ape_before_m"] = evaluation.against_poses->trajectory->ape.rmse;

@@ -4,8 +4,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
+#include <map>
 #include <optional>
+#include <set>
 #include <utility>
 
 namespace oneac::internal {
@@ -29,6 +32,11 @@ double squared_distance(const UncertainPose& error, double doubt) {
   const double squared = e.dot(solver.solve(e));
   const bool told = solver.isPositive() && std::isfinite(squared);
   return told ? squared : std::numeric_limits<double>::infinity();
+}
+
+/// Whether the odometry is known between the ends of both.
+bool comparable(const LoopConstraint& a, const LoopConstraint& b, const Chain& chain) {
+  return chain.known(a.first, b.first) && chain.known(a.second, b.second);
 }
 
 /// Whether two loops close a cycle: first a → first b → second b → second a → first a.
@@ -63,7 +71,7 @@ Opinions opinions_on(const std::vector<LoopConstraint>& loops, const Chain& chai
   for (std::size_t a = 0; a < count; ++a) {
     for (std::size_t b = a + 1; b < count; ++b) {
       if (chain.driven(loops[b].second) - chain.driven(loops[a].second) >= kNear_m) break;
-      if (loops[a].second == loops[b].second) continue;
+      if (loops[a].second == loops[b].second || !comparable(loops[a], loops[b], chain)) continue;
       const bool agreed = agree(loops[a], loops[b], chain);
       opinions.add(a, b, agreed);
       opinions.add(b, a, agreed);
@@ -86,9 +94,77 @@ std::optional<std::size_t> worst_of(const Opinions& opinions, std::size_t suppor
   return worst;
 }
 
+/// Loops between two parts, by index.
+using Indices = std::vector<std::size_t>;
+
+/// Loops between two parts in groups that agree, the largest first.
+class Placings {
+ public:
+  Placings(const std::vector<LoopConstraint>& loops, const Chain& chain)
+      : loops_(loops), chain_(chain) {}
+
+  /// The loop that most of the others agree with, and those.
+  [[nodiscard]] Indices best_of(const Indices& all) const {
+    const std::size_t stride = 1 + all.size() / kMostCompared;
+    Indices best;
+    for (std::size_t i = 0; i < all.size(); i += stride) {
+      Indices own = agreeing_with(all[i], all);
+      if (own.size() > best.size()) best = std::move(own);
+    }
+    return best;
+  }
+
+  /// [m] of way that they cover on the side where they cover less.
+  [[nodiscard]] double way_of(const Indices& some) const {
+    const auto covered = [&](std::size_t LoopConstraint::*end) {
+      const auto [least, most] = std::minmax_element(
+          some.begin(), some.end(),
+          [&](std::size_t a, std::size_t b) { return loops_[a].*end < loops_[b].*end; });
+      return chain_.driven(loops_[*most].*end) - chain_.driven(loops_[*least].*end);
+    };
+    if (some.empty()) return 0.0;
+    return std::min(covered(&LoopConstraint::first), covered(&LoopConstraint::second));
+  }
+
+ private:
+  [[nodiscard]] Indices agreeing_with(std::size_t loop, const Indices& all) const {
+    Indices own;
+    std::copy_if(all.begin(), all.end(), std::back_inserter(own), [&](std::size_t other) {
+      return other == loop || agree(loops_[loop], loops_[other], chain_);
+    });
+    return own;
+  }
+
+  // Placings that are tried: one of every so many loops stands for its neighbours.
+  static constexpr std::size_t kMostCompared = 200;
+
+  const std::vector<LoopConstraint>& loops_;
+  const Chain& chain_;
+};
+
+/// The first of each keyframe: others of it share the errors of its features.
+Indices one_of_each(const Indices& some, const std::vector<LoopConstraint>& loops) {
+  std::set<std::size_t> seen;
+  Indices kept;
+  std::copy_if(some.begin(), some.end(), std::back_inserter(kept),
+               [&](std::size_t i) { return seen.insert(loops[i].second).second; });
+  return kept;
+}
+
+/// Those of the loops between two parts that join them; none where two placings are possible.
+Indices joining_pair(const Indices& all, const Placings& placings, double least_way_m) {
+  const Indices best = placings.best_of(all);
+  Indices others;
+  std::set_difference(all.begin(), all.end(), best.begin(), best.end(), std::back_inserter(others));
+  const std::size_t rival = placings.best_of(others).size();
+  const bool joins = placings.way_of(best) >= least_way_m && best.size() > 2 * rival;
+  return joins ? best : Indices{};
+}
+
 }  // namespace
 
 bool may_meet(std::size_t a, std::size_t b, const Chain& chain) {
+  if (!chain.known(a, b)) return true;
   const UncertainPose way = chain.between(a, b);
   const Eigen::Matrix3d covariance = kDoubt * kDoubt * way.covariance.topLeftCorner<3, 3>() +
                                      kOnePlace_m * kOnePlace_m * Eigen::Matrix3d::Identity();
@@ -97,6 +173,7 @@ bool may_meet(std::size_t a, std::size_t b, const Chain& chain) {
 }
 
 bool is_possible(const LoopConstraint& loop, const Chain& chain) {
+  if (!chain.known(loop.first, loop.second)) return true;
   const UncertainPose error = chain.between(loop.first, loop.second) * inverse(of_loop(loop));
   return squared_distance(error, kDoubt) < kChi2;
 }
@@ -112,6 +189,25 @@ std::vector<LoopConstraint> agreeing(std::vector<LoopConstraint> loops, const Ch
     if (!opinions.out[i]) kept.push_back(loops[i]);
   }
   return kept;
+}
+
+std::vector<LoopConstraint> joining(const std::vector<LoopConstraint>& loops, const Chain& chain,
+                                    double least_way_m) {
+  std::map<std::pair<std::size_t, std::size_t>, Indices> pairs;
+  for (std::size_t i = 0; i < loops.size(); ++i) {
+    pairs[{chain.part(loops[i].first), chain.part(loops[i].second)}].push_back(i);
+  }
+  const Placings placings(loops, chain);
+  Indices kept;
+  for (const auto& [parts, all] : pairs) {
+    const bool known = parts.first == parts.second;
+    const Indices own = known ? all : one_of_each(joining_pair(all, placings, least_way_m), loops);
+    kept.insert(kept.end(), own.begin(), own.end());
+  }
+  std::sort(kept.begin(), kept.end());
+  std::vector<LoopConstraint> joined;
+  for (const std::size_t i : kept) joined.push_back(loops[i]);
+  return joined;
 }
 
 }  // namespace oneac::internal

@@ -13,13 +13,21 @@ namespace oneac::internal {
 [[nodiscard]] bool is_possible(const LoopConstraint& loop, const Chain& chain);
 
 /// Whether the odometry allows that the two keyframes see one place at all: before anything is
-/// compared.
+/// compared. Where it knows nothing it allows everything.
 [[nodiscard]] bool may_meet(std::size_t a, std::size_t b, const Chain& chain);
 
 /// The loops that agree with those around them: each closes a cycle with `support` others at least,
 /// short ways of odometry on either side, and is contradicted by fewer than support it. What
 /// contradicts most is taken out first.
+/// Loops are compared where the odometry between both their ends is known.
 [[nodiscard]] std::vector<LoopConstraint> agreeing(std::vector<LoopConstraint> loops,
                                                    const Chain& chain, std::size_t support);
+
+/// Without the loops between two parts of the way that do not join them beyond doubt: no odometry
+/// says where one part lies in the other, and places that look alike deceive all of a stretch. What
+/// stays are those that agree with one placing, over `least_way_m` of both parts, if the next best
+/// placing has less than half as many; of each later keyframe the first.
+[[nodiscard]] std::vector<LoopConstraint> joining(const std::vector<LoopConstraint>& loops,
+                                                  const Chain& chain, double least_way_m);
 
 }  // namespace oneac::internal

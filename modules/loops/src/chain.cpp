@@ -14,6 +14,7 @@ namespace {
 constexpr double kScaleMemory_m = 60.0;
 // [m², rad²] of a step that nothing is known of: anywhere, any heading.
 constexpr double kAnywhere_m2 = 1e6, kAnyHeading = 10.0;
+constexpr double kLeap_m = 1e7;  // [m] from a part to the next
 
 /// Of (translation, rotation vector) on the right: through T, from its right to its left side.
 Matrix6 adjoint(const Eigen::Isometry3d& T) {
@@ -29,8 +30,12 @@ Matrix6 carried(const Matrix6& covariance, const Eigen::Isometry3d& T) {
   return A * covariance * A.transpose();
 }
 
+bool is_known(const Matrix6& covariance) {
+  return !covariance.isZero() && covariance.allFinite();
+}
+
 Matrix6 known_or_anything(const Matrix6& covariance) {
-  if (!covariance.isZero() && covariance.allFinite()) return covariance;
+  if (is_known(covariance)) return covariance;
   Matrix6 anything = Matrix6::Zero();
   anything.diagonal().head<3>().setConstant(kAnywhere_m2);
   anything.diagonal().tail<3>().setConstant(kAnyHeading);
@@ -83,16 +88,20 @@ UncertainPose of_loop(const LoopConstraint& loop) {
 
 void Chain::add(const LoopKeyframe& keyframe) {
   const Eigen::Isometry3d& here = keyframe.T_first_cam;
+  const bool first = poses_.empty();
+  const bool goes_on = !first && keyframe.log == log_ && is_known(keyframe.covariance);
   Matrix6 sum = Matrix6::Zero();
-  double driven = 0.0;
-  if (!poses_.empty()) {
-    sum = sums_.back() + carried(known_or_anything(keyframe.covariance), here);
+  double driven = first ? 0.0 : driven_.back() + kLeap_m;
+  if (goes_on) {
+    sum = sums_.back() + carried(keyframe.covariance, here);
     driven = driven_.back() + (here.translation() - poses_.back().translation()).norm();
   }
+  parts_.push_back(first ? 0 : parts_.back() + (goes_on ? 0 : 1));
   poses_.push_back(here);
   sums_.push_back(sum);
   driven_.push_back(driven);
   scale_sigma_.push_back(keyframe.scale_sigma);
+  log_ = keyframe.log;
   const double begin = knots_.empty() ? 0.0 : driven_[knots_.back()];
   if (driven - begin >= kScaleMemory_m) knots_.push_back(poses_.size() - 1);
 }
@@ -117,6 +126,10 @@ UncertainPose Chain::between(std::size_t a, std::size_t b) const {
   if (a > b) return inverse(between(b, a));
   UncertainPose pose;
   pose.T = poses_[a].inverse() * poses_[b];
+  if (!known(a, b)) {
+    pose.covariance = known_or_anything(Matrix6::Zero());
+    return pose;
+  }
   pose.covariance = carried(sums_[b] - sums_[a], poses_[b].inverse());
   const Eigen::Matrix3d R = poses_[b].linear();
   pose.covariance.topLeftCorner<3, 3>() += R.transpose() * scale_covariance(a, b) * R;

@@ -34,10 +34,13 @@ class Chain {
  public:
   void add(const LoopKeyframe& keyframe);
 
-  /// T_a_b; a and b in either order.
+  /// T_a_b; a and b in either order. Anything between keyframes of two parts.
   [[nodiscard]] UncertainPose between(std::size_t a, std::size_t b) const;
-  /// [m] driven from the start to a keyframe.
+  /// [m] driven from the start to a keyframe; between two parts farther than any car drives.
   [[nodiscard]] double driven(std::size_t keyframe) const { return driven_[keyframe]; }
+  /// A part is a stretch whose odometry is known from step to step; they are numbered in order.
+  [[nodiscard]] std::size_t part(std::size_t keyframe) const { return parts_[keyframe]; }
+  [[nodiscard]] bool known(std::size_t a, std::size_t b) const { return parts_[a] == parts_[b]; }
   [[nodiscard]] std::size_t size() const { return poses_.size(); }
 
  private:
@@ -45,10 +48,12 @@ class Chain {
   [[nodiscard]] Eigen::Matrix3d scale_covariance(std::size_t a, std::size_t b) const;
 
   std::vector<Eigen::Isometry3d> poses_;
+  std::vector<std::size_t> parts_;
   std::vector<double> driven_;
   std::vector<double> scale_sigma_;
-  std::vector<Matrix6> sums_;       ///< of steps, carried to the first camera's frame
+  std::vector<Matrix6> sums_;       ///< of a part's steps, carried to the first camera's frame
   std::vector<std::size_t> knots_;  ///< keyframes where stretches end
+  std::size_t log_ = 0;             ///< of the last keyframe
 };
 
 }  // namespace oneac::internal

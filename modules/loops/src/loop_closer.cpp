@@ -78,8 +78,8 @@ class LoopCloser::Impl {
     std::vector<LoopConstraint> loops = verified(queries, depths, threads, stop, found.report);
     if (stop && stop()) return {{}, found.report};
     const std::size_t possible = loops.size();
-    found.loops =
-        agreeing(std::move(loops), chain_, static_cast<std::size_t>(options_.min_support));
+    found.loops = agreeing(joining(loops, chain_, options_.driven_m), chain_,
+                           static_cast<std::size_t>(options_.min_support));
     found.report.contradicted = possible - found.loops.size();
     return found;
   }
@@ -135,13 +135,13 @@ class LoopCloser::Impl {
     return {features_[keyframe].whole(), images_(keyframe)};
   }
 
-  /// The nearest keyframe in a direction from which depths show; none at an end of the segment.
+  /// The nearest keyframe in a direction from which depths show; none at an end of the part.
   [[nodiscard]] std::optional<std::size_t> neighbour(std::size_t i, int direction) const {
     std::size_t at = i;
     for (std::size_t apart = 1; apart <= kMostApart; ++apart) {
       if (direction < 0 ? at == 0 : at + 1 == keyframes_.size()) return std::nullopt;
       at = direction < 0 ? at - 1 : at + 1;
-      if (keyframes_[at].segment != keyframes_[i].segment || !keyframes_[at].metric) break;
+      if (!chain_.known(at, i) || !keyframes_[at].metric) break;
       if (std::abs(chain_.driven(at) - chain_.driven(i)) >= kBase_m) return at;
     }
     return std::nullopt;
@@ -188,7 +188,7 @@ class LoopCloser::Impl {
 
   /// How far verification came with a keyframe.
   struct Verdict {
-    std::optional<LoopConstraint> loop;
+    std::vector<LoopConstraint> loops;
     std::size_t verified = 0, impossible = 0;
   };
 
@@ -208,8 +208,9 @@ class LoopCloser::Impl {
         ++verdict.impossible;
         continue;
       }
-      verdict.loop = loop;
-      return verdict;
+      verdict.loops.push_back(*loop);
+      // Where odometry has its say one is enough; else those that contradict it have to be known.
+      if (chain_.known(place, query.keyframe)) break;
     }
     return verdict;
   }
@@ -236,7 +237,7 @@ class LoopCloser::Impl {
         [&](const Verdict& verdict) {
           report.verified += verdict.verified;
           report.impossible += verdict.impossible;
-          if (verdict.loop) loops.push_back(*verdict.loop);
+          loops.insert(loops.end(), verdict.loops.begin(), verdict.loops.end());
           return !(stop && stop());
         },
         threads);

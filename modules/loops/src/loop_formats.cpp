@@ -4,6 +4,7 @@
 
 #include <Eigen/Geometry>
 
+#include <algorithm>
 #include <initializer_list>
 
 namespace oneac {
@@ -25,7 +26,10 @@ void append(std::string& text, char separator, std::initializer_list<double> val
 
 std::string format_loops(const std::vector<LoopConstraint>& loops,
                          const std::vector<LoopKeyframe>& keyframes) {
-  std::string text = "index1,index2,t1,t2,qw,qx,qy,qz,tx,ty,tz,sigma_length,inliers,acs\n";
+  const bool several =
+      std::any_of(keyframes.begin(), keyframes.end(), [](const auto& k) { return k.log > 0; });
+  std::string text = "index1,index2,t1,t2,qw,qx,qy,qz,tx,ty,tz,sigma_length,inliers,acs";
+  text += several ? ",log1,log2\n" : "\n";
   for (const LoopConstraint& loop : loops) {
     const LoopKeyframe &first = keyframes.at(loop.first), &second = keyframes.at(loop.second);
     text += std::to_string(first.index) + ',' + std::to_string(second.index) + ',' +
@@ -34,7 +38,11 @@ std::string format_loops(const std::vector<LoopConstraint>& loops,
     const Eigen::Quaterniond q = quaternion(loop.T_2_1.R);
     const Eigen::Vector3d& t = loop.T_2_1.t;
     append(text, ',', {q.w(), q.x(), q.y(), q.z(), t.x(), t.y(), t.z(), loop.sigma_length});
-    text += ',' + std::to_string(loop.inliers) + ',' + std::to_string(loop.acs) + '\n';
+    text += ',' + std::to_string(loop.inliers) + ',' + std::to_string(loop.acs);
+    if (several) {
+      text += ',' + std::to_string(first.log + 1) + ',' + std::to_string(second.log + 1);
+    }
+    text += '\n';
   }
   return text;
 }

@@ -1,6 +1,7 @@
 #include "oneac/loops/pose_graph.h"
 
 #include "chain.h"
+#include "placement.h"
 
 #include <ceres/ceres.h>
 
@@ -11,6 +12,7 @@
 #include <cmath>
 #include <cstddef>
 #include <memory>
+#include <utility>
 
 namespace oneac {
 namespace {
@@ -20,8 +22,9 @@ using internal::Vector6;
 
 constexpr double kCauchy = 2.5;  // [σ of the whole residual] six Gaussian ones have a norm of 2.4
 constexpr double kChi2 = 22.46;  // χ² of six degrees of freedom, 99.9 %
-constexpr int kMostSolutions = 5;  // taking out what does not fit
+constexpr int kMostSolutions = 8;  // taking out what does not fit
 constexpr int kIterations = 100;
+constexpr double kTolerance = 1e-12;  // of the cost: well below a millimetre over a kilometre
 
 /// A pose as Ceres moves it: translation, then quaternion x y z w.
 using Block = std::array<double, 7>;
@@ -78,35 +81,57 @@ Eigen::Isometry3d isometry(const RelativePose& pose) {
   return T;
 }
 
+/// Of a loop: against those that are false, or none, when what is left is believed as it stands.
+enum class Loss { kRobust, kNone };
+
 void add_edges(const std::vector<LoopKeyframe>& keyframes, const std::vector<LoopConstraint>& loops,
-               std::vector<Block>& blocks, ceres::Problem& problem) {
+               Loss loss, std::vector<Block>& blocks, ceres::Problem& problem) {
   for (Block& block : blocks) {
     problem.AddParameterBlock(
         block.data(), 7,
         new ceres::ProductManifold<ceres::EuclideanManifold<3>, ceres::EigenQuaternionManifold>());
   }
-  problem.SetParameterBlockConstant(blocks.front().data());
   for (std::size_t i = 1; i < keyframes.size(); ++i) {
+    if (keyframes[i - 1].log != keyframes[i].log) continue;
     const Eigen::Isometry3d T = keyframes[i - 1].T_first_cam.inverse() * keyframes[i].T_first_cam;
     problem.AddResidualBlock(edge_cost(T, g2o_information(keyframes[i])), nullptr,
                              blocks[i - 1].data(), blocks[i].data());
   }
   for (const LoopConstraint& loop : loops) {
     problem.AddResidualBlock(edge_cost(isometry(loop.T_2_1.inverse()), g2o_information(loop)),
-                             new ceres::CauchyLoss(kCauchy), blocks[loop.first].data(),
-                             blocks[loop.second].data());
+                             loss == Loss::kRobust ? new ceres::CauchyLoss(kCauchy) : nullptr,
+                             blocks[loop.first].data(), blocks[loop.second].data());
   }
 }
 
-bool solve(ceres::Problem& problem) {
+/// As the odometry and the joins of parts have them.
+void place(const std::vector<LoopKeyframe>& keyframes, ClosedGraph& graph) {
+  internal::Placement placement = internal::place_parts(keyframes, graph.loops);
+  graph.T_first_cam = std::move(placement.T_group_cam);
+  graph.group = std::move(placement.group);
+}
+
+/// The first of every frame stays. @return whether the poses are those of the least squares
+bool solve(const std::vector<LoopKeyframe>& keyframes, Loss loss, ClosedGraph& graph) {
+  place(keyframes, graph);
+  std::vector<Block> blocks;
+  for (const Eigen::Isometry3d& T : graph.T_first_cam) blocks.push_back(to_block(T));
+  ceres::Problem problem;
+  add_edges(keyframes, graph.loops, loss, blocks, problem);
+  for (const std::size_t first : graph.group) {
+    problem.SetParameterBlockConstant(blocks[first].data());
+  }
   ceres::Solver::Options options;
   options.linear_solver_type = ceres::SPARSE_NORMAL_CHOLESKY;
   options.max_num_iterations = kIterations;
+  options.function_tolerance = kTolerance;
   options.num_threads = 1;
   options.logging_type = ceres::SILENT;
   ceres::Solver::Summary summary;
   ceres::Solve(options, &problem, &summary);
-  return summary.IsSolutionUsable();
+  if (!summary.IsSolutionUsable()) return false;
+  std::transform(blocks.begin(), blocks.end(), graph.T_first_cam.begin(), to_pose);
+  return true;
 }
 
 double squared_error(const LoopConstraint& loop, const std::vector<Eigen::Isometry3d>& poses) {
@@ -114,6 +139,17 @@ double squared_error(const LoopConstraint& loop, const std::vector<Eigen::Isomet
   const Vector6 e = internal::small_motion(measured.T.inverse() * poses[loop.first].inverse() *
                                            poses[loop.second]);
   return e.dot(measured.covariance.ldlt().solve(e));
+}
+
+/// @return whether there were loops that the poses disagree with
+bool take_out_strange(const std::vector<Eigen::Isometry3d>& poses,
+                      std::vector<LoopConstraint>& loops) {
+  const auto strange = std::remove_if(loops.begin(), loops.end(), [&](const LoopConstraint& loop) {
+    return squared_error(loop, poses) > kChi2;
+  });
+  const bool any = strange != loops.end();
+  loops.erase(strange, loops.end());
+  return any;
 }
 
 bool can_be_solved(const std::vector<LoopKeyframe>& keyframes) {
@@ -129,27 +165,19 @@ bool can_be_solved(const std::vector<LoopKeyframe>& keyframes) {
 ClosedGraph optimise_pose_graph(const std::vector<LoopKeyframe>& keyframes,
                                 const std::vector<LoopConstraint>& loops) {
   ClosedGraph graph;
-  for (const LoopKeyframe& keyframe : keyframes) graph.T_first_cam.push_back(keyframe.T_first_cam);
   graph.loops = loops;
-  const std::vector<Eigen::Isometry3d> before = graph.T_first_cam;
   if (!can_be_solved(keyframes)) graph.loops.clear();
+  Loss loss = Loss::kRobust;
   for (int round = 0; round < kMostSolutions && !graph.loops.empty(); ++round) {
-    std::vector<Block> blocks;
-    for (const Eigen::Isometry3d& T : before) blocks.push_back(to_block(T));
-    ceres::Problem problem;
-    add_edges(keyframes, graph.loops, blocks, problem);
-    graph.usable = solve(problem);
+    graph.usable = solve(keyframes, loss, graph);
     if (!graph.usable) break;
-    std::transform(blocks.begin(), blocks.end(), graph.T_first_cam.begin(), to_pose);
-    const auto strange = std::remove_if(
-        graph.loops.begin(), graph.loops.end(),
-        [&](const LoopConstraint& loop) { return squared_error(loop, graph.T_first_cam) > kChi2; });
-    if (strange == graph.loops.end()) return graph;
-    graph.loops.erase(strange, graph.loops.end());
+    if (take_out_strange(graph.T_first_cam, graph.loops)) continue;
+    if (loss == Loss::kNone) return graph;
+    loss = Loss::kNone;
   }
   // Nothing left to close by, or no agreement in sight.
   graph.loops.clear();
-  graph.T_first_cam = before;
+  place(keyframes, graph);
   return graph;
 }
 

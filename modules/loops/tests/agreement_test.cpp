@@ -58,6 +58,56 @@ TEST_F(Agreement, TwoStoriesOfOneStretchThatAreEquallyGoodAreBothRefused) {
   EXPECT_LE(agreeing(loops, chain_, 2).size(), own);
 }
 
+/// The second lap as a drive of its own, whose frame has nothing to do with the first's.
+std::vector<LoopKeyframe> two_logs(const std::vector<Eigen::Isometry3d>& truth) {
+  auto keyframes = test::drifted(truth, 0.02);
+  const Eigen::Isometry3d elsewhere = test::pose_at(900.0, -40.0, 130.0);
+  for (std::size_t i = kLap; i < keyframes.size(); ++i) {
+    keyframes[i].log = 1;
+    keyframes[i].T_first_cam = elsewhere * keyframes[i].T_first_cam;
+  }
+  return keyframes;
+}
+
+TEST_F(Agreement, JoinsTwoLogsThatAgreeOnOnePlacing) {
+  const Chain chain = test::chain_of(two_logs(truth_));
+  auto loops = true_loops();
+  loops.push_back(test::loop_between(truth_, 9, 30 + kLap));  // by chance alike, and not alone:
+  loops.back().T_2_1 = test::loop_between(truth_, 30, 30 + kLap).T_2_1;
+  EXPECT_TRUE(is_possible(loops.back(), chain));  // nobody knows where the logs lie
+  loops.push_back(test::loop_between(truth_, 4, 3 + kLap));  // once more, by a neighbour
+  const auto kept = joining(loops, chain, 30.0);
+  EXPECT_EQ(kept.size(), true_loops().size());
+  EXPECT_EQ(agreeing(kept, chain, 2).size(), kept.size());
+}
+
+TEST_F(Agreement, JoinsNoLogsThatMayLieInTwoWays) {
+  const Chain chain = test::chain_of(two_logs(truth_));
+  auto loops = true_loops();
+  const std::size_t own = loops.size();
+  // Every street looks like the one before it.
+  for (std::size_t i = 0; i + 20 < 60; i += 3) {
+    loops.push_back(test::loop_between(truth_, i + 20, i + 20 + kLap));
+    loops.back().first = i;
+  }
+  EXPECT_TRUE(joining(loops, chain, 30.0).empty());
+  loops.resize(own + 3);  // three of them deceive nobody
+  EXPECT_EQ(joining(loops, chain, 30.0).size(), own);
+}
+
+TEST_F(Agreement, JoinsNoLogsByAShortStretch) {
+  const Chain chain = test::chain_of(two_logs(truth_));
+  auto loops = true_loops();
+  loops.resize(5);  // along 24 m
+  EXPECT_TRUE(joining(loops, chain, 30.0).empty());
+  EXPECT_EQ(joining(loops, chain, 20.0).size(), loops.size());
+}
+
+TEST_F(Agreement, LeavesToOdometryWhatItKnows) {
+  const auto lone = test::loop_between(truth_, 20, 20 + kLap);
+  EXPECT_EQ(joining({lone}, chain_, 30.0).size(), 1U);
+}
+
 TEST_F(Agreement, PlacesThatOdometryKnowsApartAreNotCompared) {
   EXPECT_TRUE(may_meet(10, 10 + kLap, chain_));
   EXPECT_FALSE(may_meet(10, 50, chain_));

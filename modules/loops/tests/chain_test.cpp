@@ -62,6 +62,19 @@ TEST(Chain, KnowsNothingBeyondAStepThatIsUnknown) {
   EXPECT_LT(chain.between(10, 12).covariance(0, 0), 1.0);
 }
 
+TEST(Chain, KnowsNothingBetweenTwoLogsAndEverythingInEach) {
+  auto keyframes = test::drifted(test::square_drive(40.0, 1), 0.0);
+  const Chain one = test::chain_of(keyframes);
+  for (std::size_t i = 10; i < keyframes.size(); ++i) keyframes[i].log = 1;
+  const Chain two = test::chain_of(keyframes);
+  EXPECT_FALSE(two.known(9, 10));
+  EXPECT_GT(two.between(9, 10).covariance(0, 0), 1e5);
+  EXPECT_GT(two.driven(10) - two.driven(9), 1e6);
+  const Matrix6 before = one.between(12, 30).covariance;
+  EXPECT_LT((two.between(12, 30).covariance - before).norm(), 1e-9 * before.norm());
+  EXPECT_EQ(two.part(30), 1U);
+}
+
 TEST(Chain, ErrorsOfStepsAddUpAsLoopsDo) {
   const OdometryStep step{{yaw_rotation(std::cos(0.2), std::sin(0.2)), {0.1, 0.0, -2.0}},
                           test::step_covariance()};

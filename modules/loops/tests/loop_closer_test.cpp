@@ -4,6 +4,7 @@
 
 #include "oneac/geometry/levelling.h"
 #include "oneac/loops/loop_formats.h"
+#include "oneac/loops/pose_graph.h"
 #include "oneac/simulation/laps.h"
 
 #include <gtest/gtest.h>
@@ -125,6 +126,24 @@ TEST_F(LoopCloserOnABlock, OdometryThatKnowsBetterRefusesThem) {
   EXPECT_GT(found.report.impossible, 0U);
 }
 
+TEST_F(LoopCloserOnABlock, JoinsALogOfThePlaceWhateverItsFrame) {
+  auto keyframes = drive.keyframes;
+  const Eigen::Isometry3d elsewhere = test::pose_at(-300.0, 20.0, 70.0);
+  for (std::size_t i = 12; i < keyframes.size(); ++i) {
+    keyframes[i].log = 1;
+    keyframes[i].T_first_cam = elsewhere * keyframes[i].T_first_cam;
+  }
+  const FoundLoops found = close(keyframes, 2);
+  EXPECT_GE(found.loops.size(), 8U);
+  const ClosedGraph closed = optimise_pose_graph(keyframes, found.loops);
+  EXPECT_EQ(closed.group.back(), 0U);
+  for (std::size_t i = 0; i < keyframes.size(); ++i) {
+    const Eigen::Vector3d off =
+        closed.T_first_cam[i].translation() - drive.keyframes[i].T_first_cam.translation();
+    EXPECT_LT(off.norm(), 0.3) << i;
+  }
+}
+
 TEST(LoopCloser, FindsNothingInNothing) {
   LoopCloser closer({}, camera_of(small_block()), [](std::size_t) { return GreyImage{}; });
   EXPECT_TRUE(closer.close(1).loops.empty());
@@ -160,6 +179,10 @@ TEST(LoopFormats, NameImagesAndWriteMetres) {
   EXPECT_NE(text.find("\n20,830,2.000000,83.000000,1,"), std::string::npos) << text;
   EXPECT_NE(text.find(",0.03,50,80\n"), std::string::npos) << text;
   EXPECT_EQ(format_g2o_loops({loop}, keyframes).rfind("EDGE_SE3:QUAT 2 83 ", 0), 0U);
+  for (std::size_t i = 80; i < keyframes.size(); ++i) keyframes[i].log = 1;
+  const std::string of_two = format_loops({loop}, keyframes);
+  EXPECT_NE(of_two.find(",inliers,acs,log1,log2\n"), std::string::npos);
+  EXPECT_NE(of_two.find(",0.03,50,80,1,2\n"), std::string::npos) << of_two;
 }
 
 }  // namespace

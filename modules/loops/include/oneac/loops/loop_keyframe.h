@@ -16,10 +16,12 @@ struct LoopKeyframe {
   std::size_t index = 0;    ///< image of the camera in the log
   double time_s = 0.0;      ///< [s]
   std::size_t segment = 0;  ///< raised when tracking had to start anew
+  std::size_t log = 0;      ///< which of several drives, in their order; T_first_cam is of its own
   bool metric = false;      ///< lengths of the segment are metres here
   Eigen::Isometry3d T_first_cam = Eigen::Isometry3d::Identity();
   /// Of T_before_this: translation [m²], then the rotation vector [rad²], of a change on the right;
-  /// see covariance_of_steps(). Zero where nothing is known, and for the first.
+  /// see covariance_of_steps(). Zero where nothing is known, and for the first of a log: then a
+  /// part of the way begins, which only loops can join to the others.
   Eigen::Matrix<double, 6, 6> covariance = Eigen::Matrix<double, 6, 6>::Zero();
   double scale_sigma = 0.0;  ///< relative 1σ of lengths here, shared by neighbours
 };

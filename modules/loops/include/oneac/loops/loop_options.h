@@ -7,7 +7,8 @@ namespace oneac {
 /// How loops are looked for. validate() throws std::invalid_argument naming field, value and bound.
 struct LoopOptions {
   int features = 700;        ///< SIFT of a keyframe; 190 bytes each are kept for the whole drive
-  double driven_m = 30.0;    ///< [m] of way between the two: less is what the window has adjusted
+  double driven_m = 30.0;    ///< [m] of way between the two: less is what the window has adjusted;
+                             ///< and of way that joins two drives: a shorter stretch repeats itself
   int candidates = 4;        ///< places that look alike and are verified, at most
   int min_inliers = 20;      ///< with a landmark: six unknowns, three times over
   int min_side_inliers = 8;  ///< of them, with a landmark on either side
@@ -24,7 +25,9 @@ struct LoopOptions {
 template <class Visitor>
 void describe(Visitor&& visit, LoopOptions& o) {
   visit("features", o.features, "count", "SIFT features of a keyframe", Bound::at_least(50));
-  visit("driven_m", o.driven_m, "m", "way between the two keyframes, at least", Bound::positive());
+  visit("driven_m", o.driven_m, "m",
+        "way between the two keyframes, at least; and along which two logs are joined",
+        Bound::positive());
   visit("candidates", o.candidates, "count", "alike places that are verified, at most",
         Bound::at_least(1));
   visit("min_inliers", o.min_inliers, "count", "inliers with a landmark, at least",
