@@ -150,28 +150,36 @@ nlohmann::ordered_json entry_of(const ResultFile& file, const std::filesystem::p
 
 /// Those of an earlier run of several logs: 1, 2, … beside its summary. Of another run, none.
 std::vector<std::filesystem::path> folders_of_logs(const std::filesystem::path& folder) {
-  std::ifstream in(folder / "summary.json");
-  const auto summary = nlohmann::json::parse(in, nullptr, false);
   std::vector<std::filesystem::path> folders;
-  if (!summary.is_object() || !summary.contains("logs")) return folders;
   std::error_code ignored;
+  const std::filesystem::path file = folder / "summary.json";
+  if (!std::filesystem::is_regular_file(file, ignored)) return folders;
+  std::ifstream in(file);
+  const auto summary = nlohmann::json::parse(in, nullptr, false);
+  if (!summary.is_object() || !summary.contains("logs")) return folders;
   for (std::size_t i = 1; i <= summary["logs"].size(); ++i) {
     const std::filesystem::path log = folder / std::to_string(i);
-    if (std::filesystem::is_directory(log, ignored)) folders.push_back(log);
+    // Not through a link: it may lead anywhere, also back here.
+    const auto kind = std::filesystem::symlink_status(log, ignored).type();
+    if (kind == std::filesystem::file_type::directory) folders.push_back(log);
   }
   return folders;
 }
 
-}  // namespace
-
-void clear_of_earlier_run(const std::filesystem::path& folder) {
-  for (const std::filesystem::path& log : folders_of_logs(folder)) clear_of_earlier_run(log);
+void clear_folder(const std::filesystem::path& folder) {
   for (const ResultFile& result : kFiles) {
     const std::filesystem::path file = replaced_file(folder / result.name);
     std::error_code ignored;
     if (belongs_to_others(result.name, file)) continue;
     if (std::filesystem::is_regular_file(file, ignored)) std::filesystem::remove(file, ignored);
   }
+}
+
+}  // namespace
+
+void clear_of_earlier_run(const std::filesystem::path& folder) {
+  for (const std::filesystem::path& log : folders_of_logs(folder)) clear_folder(log);
+  clear_folder(folder);
 }
 
 void require_no_other_camera(const std::filesystem::path& folder) {
