@@ -4,6 +4,7 @@
 
 #include "oneac/base/error.h"
 #include "oneac/base/number_text.h"
+#include "oneac/geometry/relative_pose.h"
 
 #include <array>
 #include <stdexcept>
@@ -29,12 +30,6 @@ std::string triangle_names() {
 
 std::string header() {
   return "index1,index2" + triangle_names() + ",sigma_x,sigma_y,sigma_z";
-}
-
-Eigen::Matrix3d cross_matrix(const Eigen::Vector3d& v) {
-  Eigen::Matrix3d m;
-  m << 0.0, -v.z(), v.y(), v.z(), 0.0, -v.x(), -v.y(), v.x(), 0.0;
-  return m;
 }
 
 std::string pose_row_text(const PoseCovarianceRow& row) {
