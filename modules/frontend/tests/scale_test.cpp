@@ -364,6 +364,12 @@ TEST(Scale, ACameraInDoubtMakesLengthsByImagesUnsureAndNotSpeeds) {
   scale.doubt_camera(0.07);
   EXPECT_FALSE(scale.length_of(step(StepStatus::kOk, 10.3, 1.0), {carried(1.0)}).metric);
   EXPECT_FALSE(scale.correct({road(1.0, 1.0), {}}, {}, kFocal).metric);
+  Scale creeping = mapped();
+  creeping.doubt_camera(0.01);
+  StepInTime slow = step(StepStatus::kOk, 13.1, 0.01);
+  LengthMeasurement creep = carried(0.013);
+  creep.sigma = 0.08;
+  EXPECT_TRUE(creeping.length_of(slow, {creep}).metric) << "a millimetre of a creep";
   Scale by_speed = started(by("gps"));
   by_speed.doubt_camera(0.07);
   EXPECT_EQ(by_speed.camera_doubt(), 0.0);

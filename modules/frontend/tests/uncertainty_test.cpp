@@ -77,6 +77,9 @@ TEST(DoubtMetres, ALengthThatIsTooUnsureIsNotMetric) {
   EXPECT_NEAR(step.pose.t.norm(), 1.0, 1e-12);
   EXPECT_EQ(step.length_sigma, 0.0);
   EXPECT_GT(smallest_eigenvalue(step.covariance), -1e-12);
+  StepResult moving_off = metric_step({0.0, 0.0, -0.013}, 0.08);
+  doubt_metres(moving_off, 0.01, 0.06);
+  EXPECT_TRUE(moving_off.metric) << "a millimetre of a creep of centimetres";
   StepResult rest;
   rest.status = StepStatus::kNoMotion;
   rest.metric = true;

@@ -74,7 +74,7 @@ TEST_F(Agreement, JoinsTwoLogsThatAgreeOnOnePlacing) {
   auto loops = true_loops();
   loops.push_back(test::loop_between(truth_, 9, 30 + kLap));  // by chance alike, and not alone:
   loops.back().T_2_1 = test::loop_between(truth_, 30, 30 + kLap).T_2_1;
-  EXPECT_TRUE(is_possible(loops.back(), chain));  // nobody knows where the logs lie
+  EXPECT_TRUE(is_possible(loops.back(), chain));             // nobody knows where the logs lie
   loops.push_back(test::loop_between(truth_, 4, 3 + kLap));  // once more, by a neighbour
   const auto kept = joining(loops, chain, 30.0);
   EXPECT_EQ(kept.size(), true_loops().size());

@@ -4,6 +4,7 @@
 #include "stereo_travel.h"
 
 #include "oneac/frontend/front_end_options.h"
+#include "oneac/frontend/step_metres.h"
 
 #include <Eigen/Geometry>
 
@@ -142,11 +143,10 @@ double Scale::curve_doubt() const {
 StepLength Scale::with_doubt(StepLength length) const {
   const double doubt = std::hypot(camera_doubt(), curve_doubt());
   if (!length.metric || !(length.length > 0.0) || !(doubt > 0.0)) return length;
-  const double bound = std::max(max_uncertainty_, length.sigma);
+  const bool sure = is_sure(length.sigma, doubt, max_uncertainty_);
   length.sigma = std::hypot(length.sigma, doubt);
   length.sigma_m = std::hypot(length.sigma_m, doubt * length.length);
   length.camera_doubt = camera_doubt();
-  const bool sure = doubt <= max_uncertainty_ && length.sigma <= bound;
   return sure ? length : without_metres(length);
 }
 

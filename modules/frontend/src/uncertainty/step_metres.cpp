@@ -18,19 +18,22 @@ void withdraw_metres(StepResult& step) {
   step.length_sigma = 0.0;
 }
 
+bool is_sure(double own_sigma, double doubt, double max_uncertainty) {
+  if (doubt > max_uncertainty) return false;
+  return own_sigma > max_uncertainty || std::hypot(own_sigma, doubt) <= max_uncertainty;
+}
+
 void doubt_metres(StepResult& step, double doubt, double max_uncertainty) {
   const bool moves = step.metric && step.pose.t.norm() > 0.0 && step.length_sigma > 0.0;
   if (!moves || doubt == step.camera_doubt) return;
   const double before = step.length_sigma * step.length_sigma;
   const double own = std::max(before - step.camera_doubt * step.camera_doubt, 0.0);
   const double now = own + doubt * doubt;
-  // A short step may be less sure than that in proportion, for reasons of its own.
-  const double allowed = std::max(max_uncertainty, std::sqrt(own));
   step.camera_doubt = doubt;
   step.length_sigma = std::sqrt(now);
   step.covariance.bottomRightCorner<3, 3>() +=
       (now - before) * step.pose.t * step.pose.t.transpose();
-  if (doubt > max_uncertainty || step.length_sigma > allowed) withdraw_metres(step);
+  if (!is_sure(std::sqrt(own), doubt, max_uncertainty)) withdraw_metres(step);
 }
 
 }  // namespace oneac
