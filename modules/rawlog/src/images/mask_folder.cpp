@@ -1,12 +1,13 @@
 #include "images/mask_folder.h"
 
+#include "images/image_names.h"
+
 #include "oneac/base/error.h"
 #include "oneac/observations/image_decoding.h"
 
 #include <algorithm>
 #include <array>
 #include <cctype>
-#include <set>
 #include <string_view>
 #include <system_error>
 #include <vector>
@@ -15,19 +16,6 @@ namespace oneac {
 namespace {
 
 namespace fs = std::filesystem;
-
-std::string lower(std::string text) {
-  std::transform(text.begin(), text.end(), text.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return text;
-}
-
-bool is_picture(const fs::path& file) {
-  static const std::set<std::string> kEndings = {".png", ".jpg", ".jpeg", ".bmp", ".pgm",
-                                                 ".ppm", ".tif", ".tiff", ".webp"};
-  const std::string name = file.filename().string();
-  return name.front() != '.' && kEndings.count(lower(file.extension().string())) > 0;
-}
 
 std::string without_mask(const std::string& name) {
   constexpr std::array<std::string_view, 2> kBehind = {"_mask", "-mask"},
@@ -60,7 +48,7 @@ std::vector<fs::path> pictures_in(const fs::path& folder) {
   std::error_code error;
   for (fs::directory_iterator it(folder, error), end; !error && it != end; it.increment(error)) {
     std::error_code ignored;
-    if (is_picture(it->path()) && it->is_regular_file(ignored)) files.push_back(it->path());
+    if (is_image(it->path()) && it->is_regular_file(ignored)) files.push_back(it->path());
   }
   if (error) {
     throw InputError(folder.string(), "no such folder of masks", "name one with --mask-dir");

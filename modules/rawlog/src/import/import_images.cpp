@@ -1,13 +1,15 @@
 #include "import/import_images.h"
 
+#include "images/image_names.h"
+
 #include "oneac/base/atomic_file.h"
 #include "oneac/base/error.h"
 #include "oneac/observations/image_decoding.h"
 
 #include <algorithm>
 #include <cctype>
-#include <initializer_list>
 #include <map>
+#include <set>
 #include <stdexcept>
 #include <string_view>
 #include <system_error>
@@ -19,32 +21,9 @@ namespace fs = std::filesystem;
 
 constexpr int kSmallest_px = 32;  // of an image that shows a road
 
-std::string lower_extension(const fs::path& path) {
-  std::string extension = path.extension().string();
-  std::transform(extension.begin(), extension.end(), extension.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return extension;
-}
-
-bool is_one_of(const std::string& extension, std::initializer_list<const char*> known) {
-  return std::any_of(known.begin(), known.end(),
-                     [&](const char* name) { return extension == name; });
-}
-
-/// Hidden files are none: "._000000.jpg" is what macOS leaves beside an image.
-bool is_hidden(const fs::path& path) {
-  return path.filename().native().front() == '.';
-}
-
-bool is_image(const fs::path& path) {
-  return !is_hidden(path) &&
-         is_one_of(lower_extension(path),
-                   {".png", ".jpg", ".jpeg", ".bmp", ".pgm", ".ppm", ".tif", ".tiff", ".webp"});
-}
-
 bool is_foreign_image(const fs::path& path) {
-  return !is_hidden(path) &&
-         is_one_of(lower_extension(path), {".heic", ".gif", ".jp2", ".raw", ".dng", ".exr"});
+  static const std::set<std::string> kForeign = {".heic", ".gif", ".jp2", ".raw", ".dng", ".exr"};
+  return !is_hidden(path) && kForeign.count(lower_extension(path)) > 0;
 }
 
 /// One moment would be there twice: "000003.jpg" beside "000003.png".
