@@ -14,9 +14,7 @@
 #include "oneac/loops/loop_formats.h"
 
 #include <algorithm>
-#include <cmath>
 #include <cstddef>
-#include <cstdint>
 #include <optional>
 #include <utility>
 
@@ -41,7 +39,7 @@ std::vector<LoopKeyframe> loop_keyframes(const std::vector<RecordedDrive>& drive
   std::vector<LoopKeyframe> all;
   for (std::size_t log = 0; log < drives.size(); ++log) {
     const DriveRecord& record = *drives[log].record;
-    const std::size_t first_id = log == 0 ? 0 : all.empty() ? 0 : all.back().id + 1;
+    const std::size_t first_id = all.empty() ? 0 : all.back().id + 1;
     for (std::size_t i = 0; i < record.keyframes.size(); ++i) {
       LoopKeyframe keyframe = to_loop_keyframe(record.keyframes[i], record);
       keyframe.log = log;
@@ -68,26 +66,6 @@ LoopCamera camera_of(const DriveRecord& record, const RunOptions& options) {
   return camera;
 }
 
-/// Features whose centre the mask uses.
-AffineFeatures outside(const GreyImage& mask, AffineFeatures features) {
-  if (mask.empty()) return features;
-  constexpr std::uint8_t kUsed = 128;
-  AffineFeatures kept;
-  kept.descriptors.resize(features.descriptors.rows(), Eigen::NoChange);
-  for (std::size_t i = 0; i < features.frames.size(); ++i) {
-    const Eigen::Vector2d& u = features.frames[i].centre;
-    const int column = std::clamp(static_cast<int>(std::lround(u.x())), 0, mask.width() - 1);
-    const int row = std::clamp(static_cast<int>(std::lround(u.y())), 0, mask.height() - 1);
-    if (mask.row(row)[column] < kUsed) continue;
-    kept.descriptors.row(static_cast<Eigen::Index>(kept.frames.size())) =
-        features.descriptors.row(static_cast<Eigen::Index>(i));
-    kept.frames.push_back(features.frames[i]);
-  }
-  kept.descriptors.conservativeResize(static_cast<Eigen::Index>(kept.frames.size()),
-                                      Eigen::NoChange);
-  return kept;
-}
-
 /// @pre there are keyframes
 FoundLoops find_loops(const std::vector<LoopKeyframe>& keyframes,
                       const std::vector<RecordedDrive>& drives) {
@@ -105,7 +83,7 @@ FoundLoops find_loops(const std::vector<LoopKeyframe>& keyframes,
   const auto detect = [&](std::size_t place) {
     const CameraFrame frame = images.load(place);
     if (frame.image.empty()) return AffineFeatures{};
-    return outside(frame.mask, closer.features(frame.image.view()));
+    return closer.features(frame.image.view(), frame.mask.view());
   };
   const auto add = [&](const AffineFeatures& features) {
     closer.add(keyframes[added++], features);

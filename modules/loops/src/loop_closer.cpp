@@ -57,8 +57,8 @@ class LoopCloser::Impl {
   Impl(const LoopOptions& options, LoopCamera camera, Images images)
       : options_(options), verification_(options, camera), images_(std::move(images)) {}
 
-  [[nodiscard]] AffineFeatures detect(const ImageView& image) const {
-    return verification_.detect(image);
+  [[nodiscard]] AffineFeatures detect(const ImageView& image, const ImageView& mask) const {
+    return verification_.detect(image, mask);
   }
 
   void add(const LoopKeyframe& keyframe, const AffineFeatures& features) {
@@ -260,8 +260,8 @@ LoopCloser::LoopCloser(const LoopOptions& options, LoopCamera camera, Images ima
 
 LoopCloser::~LoopCloser() = default;
 
-AffineFeatures LoopCloser::features(const ImageView& image) const {
-  return impl_->detect(image);
+AffineFeatures LoopCloser::features(const ImageView& image, const ImageView& mask) const {
+  return impl_->detect(image, mask);
 }
 
 void LoopCloser::add(const LoopKeyframe& keyframe, const AffineFeatures& features) {

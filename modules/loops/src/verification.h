@@ -35,7 +35,9 @@ class Verification {
  public:
   Verification(const LoopOptions& options, const LoopCamera& camera);
 
-  [[nodiscard]] AffineFeatures detect(const ImageView& image) const { return pairs_.detect(image); }
+  [[nodiscard]] AffineFeatures detect(const ImageView& image, const ImageView& mask) const {
+    return pairs_.detect(image, mask);
+  }
   /// Depths of the features of a view by another whose motion is known.
   /// @param T_2_1  from the view to the other [m]
   void add_depths(const View& view, const View& other, const RelativePose& T_2_1,

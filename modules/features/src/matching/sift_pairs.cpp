@@ -43,12 +43,14 @@ SiftPairs::SiftPairs(const FeatureOptions& options, GreyImage unused) : options_
 
 SiftPairs::~SiftPairs() = default;
 
-AffineFeatures SiftPairs::detect(const ImageView& image) const {
+AffineFeatures SiftPairs::detect(const ImageView& image, const ImageView& mask) const {
   masks_->given.require_size(image.width, image.height);
+  const GreyImage of_image = internal::mask_of_image(image, mask);
   AffineFeatures all = detect_sift(image, options_.vlfeat);
   std::vector<std::size_t> kept;
   for (std::size_t i = 0; i < all.frames.size(); ++i) {
-    if (masks_->usable(all.frames[i].centre)) kept.push_back(i);
+    const Eigen::Vector2d& u = all.frames[i].centre;
+    if (masks_->usable(u) && internal::usable_in(of_image, u)) kept.push_back(i);
   }
   AffineFeatures features;
   features.descriptors.resize(static_cast<Eigen::Index>(kept.size()), 128);

@@ -23,8 +23,10 @@ class SiftPairs {
   SiftPairs& operator=(const SiftPairs&) = delete;
 
   /// Features outside the masks. @pre the image is not empty
-  /// @throws InputError when the mask of the options has another size
-  [[nodiscard]] AffineFeatures detect(const ImageView& image) const;
+  /// @param mask  of this image alone: dark (below 128) where it is not used; empty: all of it is
+  /// @throws InputError when the mask of the options has another size, std::invalid_argument when
+  /// that of the image has
+  [[nodiscard]] AffineFeatures detect(const ImageView& image, const ImageView& mask = {}) const;
   /// Matches of features [px], x2 and A aligned by grey values with gain and bias. x1 is the centre
   /// of a feature of the first image, x2 − moved that of one of the second.
   /// @pre features of these images

@@ -67,7 +67,8 @@ class LoopCloser {
   LoopCloser& operator=(const LoopCloser&) = delete;
 
   /// What add() needs of an image; any thread.
-  [[nodiscard]] AffineFeatures features(const ImageView& image) const;
+  /// @param mask  of this image alone, as SiftPairs::detect() takes it
+  [[nodiscard]] AffineFeatures features(const ImageView& image, const ImageView& mask = {}) const;
   /// The next keyframe, in the order of the drive.
   void add(const LoopKeyframe& keyframe, const AffineFeatures& features);
   /// The loops among all keyframes so far.
