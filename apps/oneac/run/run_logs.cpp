@@ -113,7 +113,7 @@ struct Driven {
 std::vector<Driven> drive_all(const std::vector<RunOptions>& logs) {
   std::vector<Driven> all;
   for (const RunOptions& log : logs) {
-    if (interrupted()) break;
+    if (!all.empty() && interrupted()) break;
     const auto start = std::chrono::steady_clock::now();
     Driven one{log, run_drive(log, {}), 0.0};
     const std::chrono::duration<double> wall = std::chrono::steady_clock::now() - start;

@@ -37,7 +37,7 @@ StepResult step_result(const FrameStamp& before, const FrameStamp& now, const Tw
   step.metric = length.metric;
   step.length = length.length;
   step.length_sigma = length.sigma;
-  step.camera_doubt = length.camera_doubt;
+  step.camera_doubt = length.metric ? length.camera_doubt : 0.0;
   step.covariance = step_covariance(step, seen.covariance, length.sigma_m);
   step.acs = seen.pair.size();
   step.inliers = seen.inlier_count;

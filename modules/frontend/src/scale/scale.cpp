@@ -141,7 +141,7 @@ double Scale::curve_doubt() const {
 /// With what camera and road add to its σ: all lengths share it, so that nothing that compares two
 /// of them has to know it.
 StepLength Scale::with_doubt(StepLength length) const {
-  const double doubt = std::hypot(camera_doubt(), curve_doubt());
+  const double doubt = shared_doubt();
   if (!length.metric || !(length.length > 0.0) || !(doubt > 0.0)) return length;
   const bool sure = is_sure(length.sigma, doubt, max_uncertainty_);
   length.sigma = std::hypot(length.sigma, doubt);
@@ -224,9 +224,9 @@ ScaleCorrection Scale::correct(const MapLengths& map, const Levelling& first, do
   needs_road_image_ = metres_ == LengthSource::kRoad && correction.ground_acs == 0;
   interval_ = {};
   speeds_.rescale(correction.factor);
-  correction.sigma = std::hypot(filter_.uncertainty(), std::hypot(camera_doubt(), curve_doubt()));
-  const bool sure = correction.sigma <= std::max(max_uncertainty_, filter_.uncertainty());
-  correction.metric = filter_.is_metric() && sure;
+  correction.sigma = std::hypot(filter_.uncertainty(), shared_doubt());
+  correction.metric =
+      filter_.is_metric() && is_sure(filter_.uncertainty(), shared_doubt(), max_uncertainty_);
   return correction;
 }
 

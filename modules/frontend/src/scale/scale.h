@@ -148,6 +148,8 @@ class Scale {
   void look_ahead(double reach);
   /// Relative 1σ of lengths for the road's curve between the car and what is looked at.
   [[nodiscard]] double curve_doubt() const;
+  /// Relative 1σ that all lengths share beside their own: by the camera and by that curve.
+  [[nodiscard]] double shared_doubt() const { return std::hypot(camera_doubt(), curve_doubt()); }
   [[nodiscard]] StepLength with_doubt(StepLength length) const;
   [[nodiscard]] StepLength together(const StepLength& a, const StepLength& b,
                                     const std::optional<ExpectedLength>& expected) const;

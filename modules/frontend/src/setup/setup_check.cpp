@@ -259,8 +259,7 @@ std::optional<std::string> SetupCheck::fault_of_speed() const {
   return "the lengths of " + std::to_string(speeds_.too_fast) + " of " +
          std::to_string(speeds_.count) +
          " steps are speeds above 250 km/h, so nothing is in metres; give the stamps of these "
-         "images, "
-         "or the camera's height (--camera-height)";
+         "images, or the camera's height (--camera-height)";
 }
 
 std::optional<std::string> SetupCheck::fault_of_road() const {

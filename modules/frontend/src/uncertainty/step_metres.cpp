@@ -15,7 +15,7 @@ void withdraw_metres(StepResult& step) {
     step.covariance.bottomRows<3>() = across * step.covariance.bottomRows<3>().eval();
   }
   step.metric = false;
-  step.length_sigma = 0.0;
+  step.length_sigma = step.camera_doubt = 0.0;
 }
 
 bool is_sure(double own_sigma, double doubt, double max_uncertainty) {
