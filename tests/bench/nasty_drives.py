@@ -1,10 +1,10 @@
 #!/usr/bin/python3
 """Drives of other kinds: does what is called metric lie within its sigma?
 
-Usage: nasty_drives.py ONEAC FOLDER [--kitti DIR] [NAME ...]
+Usage: nasty_drives.py ONEAC FOLDER [--kitti DIR] [--import-flags=FLAGS] [NAME ...]
 
-Simulated drives of other seeds, cameras, roads and lights, and, with --kitti, 200 images of a KITTI
-drive (image_0, calib.txt, poses.txt) made nastier. Prints per drive: metric pairs, their way in
+Simulated drives of other seeds, cameras, roads and lights, and, with --kitti, 200 images of a drive
+in KITTI's layout (image_0, calib.txt, times.txt, poses.txt) made nastier. Prints per drive: metric pairs, their way in
 metres against the true one, wrong directions among pairs called ok (beyond 15 deg), the share of
 metric pairs within 2 sigma and the number beyond 5 sigma. Needs python3-numpy and, for --kitti,
 python3-opencv. Takes about ten seconds a drive; drives are kept in FOLDER and used again.
@@ -52,8 +52,8 @@ SIMULATED = {
     'far': '--hard far --seed 2',
 }
 
-HEIGHT_M = '1.65'  # of KITTI's camera
-FRAMES = 200
+KITTI_FLAGS = '--camera-height 1.65'
+FRAMES = 200  # at most
 
 
 class Scene:
@@ -67,8 +67,12 @@ class Scene:
         self.K = np.array(first, float).reshape(3, 4)[:, :3]
         rows = np.loadtxt(kitti / 'poses.txt').reshape(-1, 3, 4)
         self.true = [np.vstack([row, [0, 0, 0, 1]]) for row in rows]
-        self.order = list(range(FRAMES))
-        self.turn = [np.eye(4)] * FRAMES  # of the camera, on its place
+        self.taken = np.loadtxt(kitti / 'times.txt')
+        self.usual = float(np.median(np.diff(self.taken)))  # interval of the images [s]
+        self.height, self.width = cv2.imread(str(self.files[0]), 0).shape
+        self.frames = min(FRAMES, len(self.files), len(self.true))
+        self.order = list(range(self.frames))
+        self.turn = [np.eye(4)] * self.frames  # of the camera, on its place
         self.interval = None  # [s] of stamps of a fixed rate; None: as they were taken
         self.rng = np.random.RandomState(7)
         self.change = lambda image, k: image
@@ -77,7 +81,7 @@ class Scene:
         return self.change(self.cv2.imread(str(self.files[self.order[k]]), 0), k)
 
     def stamp(self, k):
-        return 0.1 * self.order[k] if self.interval is None else self.interval * k
+        return self.taken[self.order[k]] if self.interval is None else self.interval * k
 
     def pose(self, k):
         return self.true[self.order[k]] @ self.turn[k]
@@ -109,42 +113,42 @@ def grey(values):
 
 def reverse(s):
     s.order.reverse()
-    s.interval = 0.1
+    s.interval = s.usual
 
 
 def there_and_back(s):
     s.order = list(range(100)) + list(range(100, -1, -1))
     s.turn = [np.eye(4)] * len(s.order)
-    s.interval = 0.1
+    s.interval = s.usual
 
 
 def every(n):
     def change(s):
-        s.order = list(range(0, len(s.files), n))
+        s.order = list(range(0, min(len(s.files), len(s.true)), n))
         s.turn = [np.eye(4)] * len(s.order)
     return change
 
 
 def dropped(lie):
     def change(s):
-        s.order = [i for i in range(FRAMES) if i == 0 or s.rng.rand() > 0.35]
-        s.interval = 0.1 if lie else None
+        s.order = [i for i in range(s.frames) if i == 0 or s.rng.rand() > 0.35]
+        s.interval = s.usual if lie else None
     return change
 
 
 def twice(s):
     s.order = [i for i in range(100) for _ in range(2)]
-    s.interval = 0.05
+    s.interval = s.usual / 2
 
 
 def frozen(s):
-    s.order = list(range(60)) + [60] * 15 + list(range(75, FRAMES))
-    s.interval = 0.1
+    s.order = list(range(60)) + [60] * 15 + list(range(75, s.frames))
+    s.interval = s.usual
 
 
-def stretched(interval):
+def stretched(factor):
     def change(s):
-        s.interval = interval
+        s.interval = factor * s.usual
     return change
 
 
@@ -177,8 +181,8 @@ def exposure(s):
 
 def text(s):
     def change(image, k):
-        for words, place in ((f'10:{k // 600:02d}:{k // 10 % 60:02d} 52 km/h', (20, 360)),
-                             ('DASHCAM', (1000, 30))):
+        for words, place in ((f'10:{k // 600:02d}:{k // 10 % 60:02d} 52 km/h', (20, s.height - 15)),
+                             ('DASHCAM', (s.width - 242, 30))):
             s.cv2.putText(image, words, place, s.cv2.FONT_HERSHEY_SIMPLEX, 1.0, 255, 2)
         return image
     s.change = change
@@ -200,7 +204,7 @@ def bonnet(s):
 
 
 def dirt(s):
-    spots = [(s.rng.randint(1242), s.rng.randint(375), s.rng.randint(6, 30)) for _ in range(25)]
+    spots = [(s.rng.randint(s.width), s.rng.randint(s.height), s.rng.randint(6, 30)) for _ in range(25)]
 
     def change(image, k):
         mask = np.zeros(image.shape, np.float32)
@@ -221,13 +225,13 @@ def snow(s):
 
 
 def drops(s):
-    where = [(s.rng.randint(1242), s.rng.randint(375), s.rng.randint(5, 16)) for _ in range(120)]
+    where = [(s.rng.randint(s.width), s.rng.randint(s.height), s.rng.randint(5, 16)) for _ in range(120)]
 
     def change(image, k):
         through = s.cv2.flip(s.cv2.GaussianBlur(image, (0, 0), 9), 0)
         mask = np.zeros(image.shape, np.float32)
         for n, (x, y, r) in enumerate(where):
-            moved = (7 * x + 131 * (k // 25)) % 1242 if (k // 25 + n) % 4 == 0 else x
+            moved = (7 * x + 131 * (k // 25)) % s.width if (k // 25 + n) % 4 == 0 else x
             s.cv2.circle(mask, (moved, y), r, 1, -1)
         mask = s.cv2.GaussianBlur(mask, (0, 0), 1.5)
         return grey(image * (1 - mask) + through * mask)
@@ -243,7 +247,7 @@ def drops_at_night(s):
 
 
 def mirror(s):
-    s.K[0, 2] = 1241 - s.K[0, 2]
+    s.K[0, 2] = s.width - 1 - s.K[0, 2]
     flip = np.diag([-1.0, 1, 1, 1])
     s.true = [flip @ pose @ flip for pose in s.true]
     s.change = lambda image, k: s.cv2.flip(image, 1)
@@ -274,17 +278,136 @@ def shaking(s):
     s.turned([s.rotation(s.rng.randn(3) * [0.4, 0.2, 0.4]) for _ in s.order])
 
 
+def zoomed(s):
+    def change(image, k):
+        if s.order[k] < s.frames // 2:
+            return image
+        c = s.K[0, 2], s.K[1, 2]
+        return s.cv2.warpAffine(image, s.cv2.getRotationMatrix2D(c, 0, 1.06), image.shape[::-1])
+    s.change = change
+
+
+def bumped(vector_deg):
+    def change(s):
+        s.turned([s.rotation(vector_deg) if 2 * k > s.frames else np.eye(3)
+                  for k in range(len(s.order))])
+    return change
+
+
+def stutter(s):
+    s.order = [i - (i % 5 == 4) for i in s.order]
+    s.interval = s.usual
+
+
+def swapped(s):
+    s.order = [i + 1 if i % 10 == 4 else i - 1 if i % 10 == 5 else i for i in range(s.frames)]
+    s.interval = s.usual
+
+
+def jitter(s):
+    s.taken = s.taken + s.usual * s.rng.uniform(0, 0.6, len(s.taken))
+
+
+def gap(s):
+    s.order = [i for i in s.order if not s.frames // 3 <= i < s.frames // 3 + 30]
+
+
+def headlights(s):
+    """A night whose only light is the car's own: its edge on the road travels with the car."""
+    y, x = np.mgrid[:s.height, :s.width].astype(np.float32)
+    across = (x - s.K[0, 2]) / np.maximum(40.0, y - s.K[1, 2] + 60)
+    cone = np.exp(-(across / 1.3) ** 4) * (y > s.K[1, 2] + 4) * (1 + 0.3 * np.sin(3 * across))
+    light = s.cv2.GaussianBlur(cone, (0, 0), 3) * 0.6 + 0.05
+    s.change = lambda image, k: grey(image * light + 3 * s.rng.randn(*image.shape))
+
+
+def own_shadow(s):
+    """The car's shadow beside and before it, on the road, at rest in the picture."""
+    mask = np.zeros((s.height, s.width), np.float32)
+    w, h, cx, cy = s.width, s.height, s.K[0, 2], s.K[1, 2]
+    low = int(cy + 0.35 * (h - cy))
+    s.cv2.fillPoly(mask, [np.array([[int(cx - 0.3 * w), h], [int(cx - 0.12 * w), low],
+                                    [int(cx + 0.1 * w), low], [int(cx + 0.2 * w), h]])], 1)
+    mask = s.cv2.GaussianBlur(mask, (0, 0), 1.5)
+    s.change = lambda image, k: grey(image * (1 - 0.55 * mask))
+
+
+def letterbox(s):
+    def change(image, k):
+        image[:s.height // 8] = 0
+        image[-s.height // 8:] = 0
+        return image
+    s.change = change
+
+
+def middle(s):
+    width = s.width // 3
+    s.K[0, 2] -= width
+    s.change = lambda image, k: image[:, width:2 * width].copy()
+
+
+def glare(s):
+    at = s.width // 2 + s.width // 10, int(s.K[1, 2] * 0.8)
+    y, x = np.mgrid[:s.height, :s.width]
+    halo = 400 * np.exp(-np.hypot(x - at[0], y - at[1]) / (0.12 * s.width))
+    s.change = lambda image, k: grey(0.7 * image + halo)
+
+
+def vignette(s):
+    y, x = np.mgrid[:s.height, :s.width]
+    shade = 1 - 0.75 * np.hypot((x - s.width / 2) / s.width, (y - s.height / 2) / s.height) ** 2 * 2
+    s.change = lambda image, k: grey(image * shade)
+
+
+def dead_pixels(s):
+    rows, columns = s.rng.randint(s.height, size=400), s.rng.randint(s.width, size=400)
+
+    def change(image, k):
+        image[rows, columns] = 255
+        return image
+    s.change = change
+
+
+def interlaced(s):
+    def change(image, k):
+        image[::2] = np.roll(image[::2], 3, axis=1)
+        return image
+    s.change = change
+
+
+def rolled_shutter(s):
+    """Rows read one after the other while the camera shakes about its yaw."""
+    def change(image, k):
+        phase = 2 * np.pi * (0.9 * k + np.arange(s.height) / s.height)
+        y, x = np.mgrid[:s.height, :s.width].astype(np.float32)
+        return s.cv2.remap(image, x + (1.5 * np.sin(phase)[:, None]).astype(np.float32), y,
+                           s.cv2.INTER_LINEAR)
+    s.change = change
+
+
+def potholes(s):
+    s.turned([s.rotation([1.2 * np.sin(0.9 * (k % 40)) * np.exp(-0.3 * (k % 40)), 0, 0])
+              for k in range(len(s.order))])
+
+
 NASTIER = {
     'plain': lambda s: None, 'mirror': mirror, 'reverse': reverse, 'there-and-back': there_and_back,
     'every-3rd': every(3), 'every-5th': every(5), 'dropped': dropped(False),
     'dropped-fixed-rate': dropped(True), 'twice': twice, 'frozen': frozen, 'black': black,
-    'stamps-10-too-slow': stretched(1.0), 'stamps-10-too-fast': stretched(0.01),
+    'stamps-10-too-slow': stretched(10), 'stamps-10-too-fast': stretched(0.1),
     'night': night, 'fog': fog(0), 'fog-noise': fog(3), 'jpeg-15': jpeg, 'blurred': blurred,
     'exposure': exposure, 'text': text, 'bonnet': bonnet, 'dirt': dirt, 'snow': snow,
     'drops': drops, 'drops-night': drops_at_night, 'upper-260-rows': cut_above(260),
     'half': lambda s: s.scaled(0.5), 'third': lambda s: s.scaled(1 / 3),
     'focal+5%': focal(1.05), 'focal-8%': focal(0.92), 'roll-3': turned([0, 0, 3]),
     'pitch-8': turned([8, 0, 0]), 'yaw-10': turned([0, 10, 0]), 'shaking': shaking,
+    'zoomed': zoomed, 'bumped-pitch': bumped([3, 0, 0]), 'bumped-yaw': bumped([0, 4, 0]),
+    'stutter': stutter, 'swapped': swapped, 'jitter': jitter, 'gap': gap,
+    'stamps-2-too-fast': stretched(0.5), 'stamps-2-too-slow': stretched(2),
+    'headlights': headlights, 'own-shadow': own_shadow, 'letterbox': letterbox, 'middle': middle,
+    'glare': glare, 'vignette': vignette, 'dead-pixels': dead_pixels, 'interlaced': interlaced,
+    'rolled-shutter': rolled_shutter, 'potholes': potholes, 'focal+10%': focal(1.1),
+    'focal-3%': focal(0.97), 'pitch+5-down': turned([-5, 0, 0]), 'upside-down': turned([0, 0, 180]),
 }
 
 
@@ -348,6 +471,7 @@ def main():
     parser.add_argument('folder', type=pathlib.Path)
     parser.add_argument('names', nargs='*')
     parser.add_argument('--kitti', type=pathlib.Path)
+    parser.add_argument('--import-flags', default=KITTI_FLAGS)
     asked = parser.parse_intermixed_args()
     for name, flags in SIMULATED.items():
         drive = asked.folder / name
@@ -367,7 +491,7 @@ def main():
             change(scene)
             write_kitti(scene, drive)
             call(asked.oneac, 'import', 'kitti', drive, '-o', drive / 'drive.rawlog',
-                 '--camera-height', HEIGHT_M)
+                 *asked.import_flags.split())
         report(name, asked.oneac, drive / 'drive.rawlog', drive / 'poses.txt',
                asked.folder / f'{name}-run')
 
