@@ -138,6 +138,7 @@ def dropped(lie):
 
 def twice(s):
     s.order = [i for i in range(100) for _ in range(2)]
+    s.turn = [np.eye(4)] * len(s.order)
     s.interval = s.usual / 2
 
 

@@ -95,6 +95,7 @@ FrameResult FrontEnd::process(PreparedFrame prepared) {
     road.mask = tracker_->unused();
     road.car_is_known = tracker_->knows_car();
     road.shows_travel = tracker_->shows_travel();
+    road.through_dirt = tracker_->views_through_dirt();
     if (stereo_) correspondences_ = with_stereo_depths(std::move(correspondences_), frame);
     pair = normalised(correspondences_, previous_camera_, frame);
   }

@@ -170,6 +170,7 @@ FrameResult Odometry::integrate(const FrameStamp& now, TwoView seen, const RoadP
   StepInTime in_time = step_in_time(before, now, seen, last_motion_);
   in_time.car_is_known = road.car_is_known;
   in_time.shows_travel = road.shows_travel;
+  in_time.through_dirt = road.through_dirt;
   const auto rest = scale_.rest_by_road(road, seen, attitude_.now(), heading(), in_time);
   if (rest) {
     seen = resting(std::move(seen));
@@ -181,7 +182,10 @@ FrameResult Odometry::integrate(const FrameStamp& now, TwoView seen, const RoadP
       rest && rest->in_metres
           ? rest
           : scale_.measure_directly(road, seen, link.carried, attitude_.now(), heading(), in_time);
-  const auto told = scale_.measure(seen, link.carried, attitude_.now());
+  const auto begun = begin_scale(in_time, link.carried);
+  // The map, which was measured by this very step, cannot confirm it.
+  const auto told = begun ? std::vector<LengthMeasurement>{}
+                          : scale_.measure(seen, link.carried, attitude_.now());
   setup_.follow(seen, attitude_.now().R_level_cam);
   const StepLength length = setup_.checked_after(scale_.length_of(in_time, told));
   if (seen.status == StepStatus::kOk && length.length > kTellingWay)
@@ -199,7 +203,17 @@ FrameResult Odometry::integrate(const FrameStamp& now, TwoView seen, const RoadP
   T_cam_odom_ = orthonormalised(motion * T_cam_odom_);
   FrameResult result = frame_result(now, map_.settle(correction), attitude_);
   result.T_odom_cam = camera_in_frame(T_cam_odom_);
-  return with_step(std::move(result), step, correction);
+  result = with_step(std::move(result), step, correction);
+  if (begun) result.rescaled *= begun->factor;
+  return result;
+}
+
+std::optional<ScaleCorrection> Odometry::begin_scale(
+    const StepInTime& step, const std::optional<LengthMeasurement>& carried) {
+  if (!carried || !setup_.metric_allowed()) return std::nullopt;
+  const auto begun = scale_.begin(step, *carried);
+  if (begun) map_.rescale(*begun);
+  return begun;
 }
 
 std::optional<ScaleCorrection> Odometry::scale_correction(const std::optional<MapLengths>& lengths,

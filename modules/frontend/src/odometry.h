@@ -58,6 +58,9 @@ class Odometry {
   [[nodiscard]] Eigen::Vector3d heading() const;
   /// t̂ of a camera that travels as it is mounted.
   [[nodiscard]] Eigen::Vector3d straight_ahead() const;
+  /// A step in metres is the first that tells the map's scale: the map is in metres from here on.
+  [[nodiscard]] std::optional<ScaleCorrection> begin_scale(
+      const StepInTime& step, const std::optional<LengthMeasurement>& carried);
   [[nodiscard]] std::optional<ScaleCorrection> scale_correction(
       const std::optional<MapLengths>& lengths, double focal_px);
 

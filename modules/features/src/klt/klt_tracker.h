@@ -37,6 +37,9 @@ class KltTracker : public AcTracker {
   [[nodiscard]] bool shows_travel() const override {
     return options_.mask.learn && car_mask_.shows_travel();
   }
+  [[nodiscard]] bool views_through_dirt() const override {
+    return static_points_.views_through_dirt();
+  }
   [[nodiscard]] bool car_mask_refused() const override { return car_mask_.is_refused(); }
   [[nodiscard]] ImageView unused() const override {
     return masked_.empty() ? unused_.view() : masked_.view();

@@ -9,15 +9,36 @@ constexpr std::size_t kBlocked = 50;  // [frames] then the cell gets another cha
 // Without a metric hint far points near the direction of travel rest as well: let only long rest
 // count, while the image as a whole moves.
 constexpr int kUncertainFactor = 4;
+// [points] before anything is said, and what a pair leaves of the count: some fifty of them count.
+constexpr double kFewest = 50.0, kMemory = 0.98;
+// Through clean glass it is less than a twenty-fifth (wrong matches, traffic that keeps its
+// distance), through drops a fifth.
+constexpr double kDirt = 0.1;
 
 }  // namespace
 
+void StaticPoints::begin_pair(std::size_t frame, double median_flow_px) {
+  frame_ = frame;
+  median_flow_px_ = median_flow_px;
+  had_to_move_ *= kMemory;
+  rested_ *= kMemory;
+}
+
+bool StaticPoints::views_through_dirt() const {
+  return had_to_move_ >= kFewest && rested_ >= kDirt * had_to_move_;
+}
+
 bool StaticPoints::rests(KltTrack& track, const Eigen::Vector2d& flow,
-                         const MotionPrediction& expected, bool by_place) const {
+                         const MotionPrediction& expected, bool by_place) {
   const bool at_rest = flow.norm() < kRest;
   auto warp = expected.on_road(track.u);
   if (!warp) warp = expected.far_away(track.u);
-  const bool must_move = by_place || (warp && (warp->centre - track.u).norm() > kMustMove);
+  const bool by_motion = warp && (warp->centre - track.u).norm() > kMustMove;
+  if (by_motion) {
+    had_to_move_ += 1.0;
+    rested_ += at_rest ? 1.0 : 0.0;
+  }
+  const bool must_move = by_place || by_motion;
   const bool others_move = !expected.is_metric() && median_flow_px_ > kMustMove;
   track.like_the_car = at_rest && (by_place || track.like_the_car);
   if (!at_rest) {

@@ -18,15 +18,15 @@ class StaticPoints {
   explicit StaticPoints(int frames) : frames_(frames) {}
 
   /// Begins a pair. @param median_flow_px  of all points found
-  void begin_pair(std::size_t frame, double median_flow_px) {
-    frame_ = frame;
-    median_flow_px_ = median_flow_px;
-  }
+  void begin_pair(std::size_t frame, double median_flow_px);
   /// Whether the track rested while it had to move in this pair, or has rested since it had to by
   /// its place; counts it in the track.
   /// @param by_place  it had to move whatever the motion that is expected
   [[nodiscard]] bool rests(KltTrack& track, const Eigen::Vector2d& flow,
-                           const MotionPrediction& expected, bool by_place) const;
+                           const MotionPrediction& expected, bool by_place);
+  /// Whether a tenth of what had to move lately rested: the view goes through drops or dirt, or
+  /// along the car, and what rests in the picture does not say that the car does.
+  [[nodiscard]] bool views_through_dirt() const;
   /// Whether the track has rested so long that it is no part of the scene.
   [[nodiscard]] bool is_static(const KltTrack& track) const;
   /// Keeps corners of this cell from being taken for a while.
@@ -38,6 +38,7 @@ class StaticPoints {
   int frames_;
   std::size_t frame_ = 0;
   double median_flow_px_ = 0.0;
+  double had_to_move_ = 0.0, rested_ = 0.0;  ///< [points] lately, by the motion expected
   std::unordered_map<std::size_t, std::size_t> blocked_until_;
 };
 

@@ -83,6 +83,16 @@ void KeyframeMap::correct(const ScaleCorrection& correction) {
   settling_.set_metric(correction.metric, correction.sigma);
 }
 
+void KeyframeMap::rescale(const ScaleCorrection& correction) {
+  if (!window_ || window_->keyframes().empty()) return;
+  RelativePose T_cam_last = T_cam_map_ * window_->keyframes().back().T_cam_map.inverse();
+  T_cam_last.t *= correction.factor;
+  window_->rescale(correction.factor);
+  settling_.rescale(correction.factor);
+  T_cam_map_ = T_cam_last * window_->keyframes().back().T_cam_map;
+  settling_.set_metric(correction.metric, correction.sigma);
+}
+
 FrameInMap KeyframeMap::settle(const std::optional<ScaleCorrection>& correction) {
   FrameInMap result;
   if (window_) {

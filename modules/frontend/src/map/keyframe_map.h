@@ -61,6 +61,8 @@ class KeyframeMap {
                                                const TwoView& seen,
                                                const Eigen::Matrix3d& R_level_cam,
                                                bool lengths_hold = false);
+  /// All lengths are multiplied, between two steps.
+  void rescale(const ScaleCorrection& correction);
   /// Ends the step.
   /// @param correction  when move() made a keyframe
   [[nodiscard]] FrameInMap settle(const std::optional<ScaleCorrection>& correction);

@@ -61,6 +61,7 @@ std::optional<MeasuredTravel> Scale::rest_by_road(const RoadPair& road, const Tw
                                                   const StepInTime& step) {
   const auto expected = inertia_.expect(step.begin_s, step.end_s);
   if (seen.status != StepStatus::kOk || !could_stand(expected)) return std::nullopt;
+  if (step.through_dirt) return std::nullopt;
   if (may_follow(seen, heading, *expected)) return std::nullopt;
   TwoView rest;
   rest.status = StepStatus::kNoMotion;
@@ -70,6 +71,14 @@ std::optional<MeasuredTravel> Scale::rest_by_road(const RoadPair& road, const Tw
   if (!told || told->length > kMoves * told->sigma) return std::nullopt;
   unchecked_ = 0;
   return told;
+}
+
+bool Scale::contradict(const StepLength& a, const StepLength& b) {
+  return std::abs(a.length - b.length) > kContradiction * std::hypot(a.sigma_m, b.sigma_m);
+}
+
+bool Scale::is_against(const StepLength& told, const std::optional<ExpectedLength>& expected) {
+  return expected && std::isfinite(told.sigma_m) && !expected->allows(told.length, told.sigma_m);
 }
 
 StepLength Scale::by_itself(const StepInTime& step) const {
@@ -89,7 +98,13 @@ StepLength Scale::decided(const StepInTime& step,
   std::vector<StepLength> told;
   if (!measured.empty()) told.push_back(stated(measured.front()));
   if (const StepLength direct = by_itself(step); direct.metric) told.push_back(direct);
-  const StepLength result = chosen(told, step);
+  StepLength result = chosen(told, step);
+  // A map that is too unsure to be called metric knows what cannot be.
+  if (result.metric && told.size() == 2 && !told.front().metric &&
+      contradict(told.front(), result)) {
+    result = without_metres(result);
+    result.conflict = result.refused = true;
+  }
   if (result.metric) return result;
   // A map that is too unsure to be called metric still knows better than inertia does after a
   // while, and its landmarks and its poses stay of one scale.
@@ -103,7 +118,7 @@ StepLength Scale::decided(const StepInTime& step,
   }
   StepLength goes_on = held(step);
   goes_on.conflict = result.conflict;
-  goes_on.refused = result.refused;
+  goes_on.refused = result.refused || (unsure_map && is_against(told.front(), expected));
   goes_on.too_fast = result.too_fast;
   if (!told.empty()) goes_on.ground_acs = told.front().ground_acs;
   return goes_on;
@@ -159,8 +174,7 @@ std::optional<StepLength> Scale::against_inertia(const std::vector<StepLength>& 
 /// surprising one.
 StepLength Scale::together(const StepLength& a, const StepLength& b,
                            const std::optional<ExpectedLength>& expected) const {
-  const double off = std::abs(a.length - b.length);
-  if (off <= kContradiction * std::hypot(a.sigma_m, b.sigma_m)) {
+  if (!contradict(a, b)) {
     return a.sigma <= kSure * allowed_sigma(a.length) ? a : mean_of(a, b);
   }
   StepLength result = a;
@@ -215,6 +229,7 @@ StepLength Scale::held(const StepInTime& step) const {
 StepLength Scale::at_rest(const StepInTime& step) const {
   const auto expected = inertia_.expect(step.begin_s, step.end_s);
   if (!expected && step.shows_travel) return held(step);
+  if (step.through_dirt) return without_metres(held(step));
   StepLength result;
   result.source = LengthSource::kStanding;
   // While no speed is known, a bonnet rests as a road at rest does: before anything has moved the

@@ -68,6 +68,14 @@ struct StepLength {
   std::size_t ground_acs = 0;                     ///< on the road, where it was asked
 };
 
+/// The same where images, road and inertia contradict each other: one of them is wrong, or the
+/// stamps are, and nothing says which.
+[[nodiscard]] inline StepLength without_metres(StepLength length) {
+  length.metric = false;
+  length.sigma = length.sigma_m = 0.0;
+  return length;
+}
+
 /// Two views of the same tracks.
 struct KeyframePair {
   std::vector<AffineCorrespondence> acs;  ///< normalised

@@ -1,5 +1,7 @@
 #include "road_length.h"
 
+#include "room.h"
+
 #include "oneac/geometry/angles.h"
 
 #include <cmath>
@@ -30,6 +32,8 @@ std::optional<LengthMeasurement> RoadLength::measure(AcSpan acs, const std::vect
   const auto road = ground_scale(acs, inliers, T_2_1, first.R_level_cam, point_sigma_px_ / focal_px,
                                  widened(options_, first));
   if (!road) return std::nullopt;
+  const double heights = road->baseline / T_2_1.t.norm();
+  if (!is_wide_enough(heights * room_beside(acs, inliers, T_2_1))) return std::nullopt;
   return LengthMeasurement{road->baseline * camera_height_, road->uncertainty, LengthSource::kRoad,
                            road->support, road->reach};
 }

@@ -1,15 +1,11 @@
 #include "road_travel.h"
 
 #include "attitude/mainly_forward.h"
+#include "scale/room.h"
 #include "two_view/below_the_sky.h"
-
-#include "oneac/geometry/triangulation.h"
 
 #include <algorithm>
 #include <cmath>
-#include <cstddef>
-#include <limits>
-#include <vector>
 
 namespace oneac {
 namespace {
@@ -30,10 +26,6 @@ constexpr double kBeyond = 3.0;  // [σ]
 constexpr double kLeastSigma = 0.003;
 constexpr double kMoving = 0.05;
 constexpr double kSurely = 2.0;  // [σ] of inertia that says so
-// [heights] from the line of travel: the road itself is one away, and half a car is wider. What is
-// nearer lies on the way, like the truck ahead.
-constexpr double kNarrowest = 0.5;
-constexpr double kMostOnTheWay = 0.1;  // share of what is seen
 
 double rms(const Eigen::Matrix3d& covariance, double unknown) {
   const double variance = covariance.trace() / 3.0;
@@ -72,24 +64,10 @@ bool looks_aside(const RoadStep& step) {
   return std::abs(step.R_level_cam.row(2).dot(along)) < kMainlyForward;
 }
 
-/// What is seen is farther from the line of travel than this [lengths of the step], but for a
-/// tenth.
+/// [lengths of the step]
 double room_beside(const TwoView& seen) {
-  const Eigen::Vector3d along = (seen.pose.R.transpose() * seen.pose.t).normalized();
-  std::vector<double> room;
-  for (std::size_t i = 0; i < seen.pair.size(); ++i) {
-    if (!seen.inliers[i]) continue;
-    const Correspondence& ac = seen.pair.correspondences[i];
-    const auto point = triangulate(seen.pose, ac.x1, ac.x2);
-    room.push_back(point && point->in_front()
-                       ? (point->z1 * ac.x1.homogeneous()).cross(along).norm()
-                       : std::numeric_limits<double>::infinity());
-  }
-  if (room.empty()) return std::numeric_limits<double>::infinity();
-  const auto tenth =
-      room.begin() + static_cast<std::ptrdiff_t>(kMostOnTheWay * static_cast<double>(room.size()));
-  std::nth_element(room.begin(), tenth, room.end());
-  return *tenth;
+  return room_beside(affine_parts(seen.pair), seen.inliers,
+                     {seen.pose.R, seen.pose.t.normalized()});
 }
 
 }  // namespace
@@ -120,8 +98,9 @@ std::optional<MeasuredTravel> road_travel(const RoadPair& road, const TwoView& s
   }
   // Two views saw a translation: a road that rests contradicts them, and one of the two is wrong.
   if (directed && aligned.length < reach) return std::nullopt;
-  // So short that the car would drive through what it passes: the bonnet was taken for the road.
-  if (directed && (aligned.length + reach) * room_beside(seen) < kNarrowest) return std::nullopt;
+  if (directed && !is_wide_enough((aligned.length + reach) * room_beside(seen))) {
+    return std::nullopt;
+  }
   if (looks_aside(step) && aligned.length > reach) return std::nullopt;
   const double unit = prior.camera_height > 0.0 ? prior.camera_height : 1.0;
   return MeasuredTravel{aligned.length * unit, sigma * unit, LengthSource::kRoadImage,

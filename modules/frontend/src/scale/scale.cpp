@@ -31,15 +31,6 @@ LengthSource source_of_metres(const ScaleOptions& options) {
   const bool by_speed = options.source == "gps" || options.source == "wheels";
   return by_speed ? LengthSource::kSpeed : LengthSource::kNone;
 }
-
-/// Inertia goes on where it does not allow what images or road tell in metres: one of the two is
-/// wrong, or the stamps are, and nothing says which.
-StepLength without_metres(StepLength length) {
-  length.metric = false;
-  length.sigma = length.sigma_m = 0.0;
-  return length;
-}
-
 }  // namespace
 
 Scale::Scale(const FrontEndOptions& options)
@@ -96,8 +87,7 @@ std::optional<MeasuredTravel> Scale::measure_directly(
   const bool unsure = !by_map.metric || by_map.sigma > kSure * allowed_sigma(by_map.length);
   const auto expected = inertia_.expect(step.begin_s, step.end_s);
   // Inertia is judged by what does not know it.
-  const bool surprises =
-      by_map.metric && expected && !expected->allows(by_map.length, by_map.sigma_m);
+  const bool surprises = carried && is_against(by_map, expected);
   const bool needed =
       unsure || surprises || needs_road_image_ || conflicts_ > 0 || stamps_are_wrong();
   const bool due = ++unchecked_ >= kCheckEvery;
@@ -107,6 +97,22 @@ std::optional<MeasuredTravel> Scale::measure_directly(
   return road_travel(road, seen,
                      {first, heading, surprises ? std::nullopt : expected, step.seconds(),
                       in_use ? camera_height() : 0.0});
+}
+
+std::optional<ScaleCorrection> Scale::begin(const StepInTime& step,
+                                            const LengthMeasurement& carried) {
+  if (!std::isinf(filter_.uncertainty()) || !(carried.length > 0.0)) return std::nullopt;
+  const StepLength told = by_itself(step);
+  if (!chosen({told}, step).metric) return std::nullopt;
+  ScaleCorrection correction;
+  correction.factor =
+      filter_.correct(told.length / carried.length, std::hypot(told.sigma, carried.sigma));
+  correction.sigma = std::hypot(filter_.uncertainty(), shared_doubt());
+  correction.metric =
+      filter_.is_metric() && is_sure(filter_.uncertainty(), shared_doubt(), max_uncertainty_);
+  interval_.rescale(correction.factor);
+  speeds_.rescale(correction.factor);
+  return correction;
 }
 
 StepLength Scale::length_of(const StepInTime& step,

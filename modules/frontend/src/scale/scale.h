@@ -25,6 +25,7 @@ struct StepInTime {
   std::optional<MeasuredTravel> direct;  ///< what the road's grey values or stereo say of it
   bool car_is_known = true;              ///< what rests in the images is not the car's own
   bool shows_travel = false;             ///< the images show travel, whatever rests in them
+  bool through_dirt = false;             ///< what rests may be drops or dirt on the glass
 
   [[nodiscard]] double seconds() const { return end_s - begin_s; }
 };
@@ -77,6 +78,11 @@ class Scale {
   [[nodiscard]] bool lengths_hold() const { return interval_.is_told() || filter_.is_metric(); }
   /// Road and map have contradicted each other for too long: the map should begin anew.
   [[nodiscard]] bool map_is_refuted() const { return conflicts_ >= kPatience; }
+  /// A step of a map that has no scale yet is told in metres: the whole map is from now on.
+  /// @param carried  length of the step by the map's landmarks [map]
+  /// @return the correction of the map's lengths; empty when this step begins no scale
+  [[nodiscard]] std::optional<ScaleCorrection> begin(const StepInTime& step,
+                                                     const LengthMeasurement& carried);
   /// The length of the step, which is then remembered as the newest.
   [[nodiscard]] StepLength length_of(const StepInTime& step,
                                      const std::vector<LengthMeasurement>& measured);
@@ -133,6 +139,8 @@ class Scale {
     /// [heights]
     [[nodiscard]] double reach() const { return seen > 0.0 ? std::sqrt(reached / seen) : 0.0; }
 
+    /// The map's lengths were multiplied.
+    void rescale(double factor) { used *= factor; }
     /// Somebody told as good as all of it.
     [[nodiscard]] bool is_told() const { return way > 0.0 && untold <= kMostUntold * way; }
     [[nodiscard]] double sigma() const { return std::hypot(sigma_m, untold * kUntold) / way; }
@@ -153,6 +161,11 @@ class Scale {
   [[nodiscard]] StepLength with_doubt(StepLength length) const;
   [[nodiscard]] StepLength together(const StepLength& a, const StepLength& b,
                                     const std::optional<ExpectedLength>& expected) const;
+  /// Whether two lengths of one step cannot both be true.
+  [[nodiscard]] static bool contradict(const StepLength& a, const StepLength& b);
+  /// Whether inertia does not allow what is known of a length, be it ever so unsure.
+  [[nodiscard]] static bool is_against(const StepLength& told,
+                                       const std::optional<ExpectedLength>& expected);
   [[nodiscard]] StepLength steadied(const StepLength& told, const ExpectedLength& expected) const;
   [[nodiscard]] StepLength held(const StepInTime& step) const;
   [[nodiscard]] StepLength at_rest(const StepInTime& step) const;

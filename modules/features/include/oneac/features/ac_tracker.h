@@ -53,6 +53,9 @@ class AcTracker {
   [[nodiscard]] virtual bool knows_car() const { return false; }
   /// Whether the image given last shows travel since the one before, whatever its tracks do.
   [[nodiscard]] virtual bool shows_travel() const { return false; }
+  /// Whether a tenth of what had to move lately rested in the images: there are drops or dirt on
+  /// the glass, and what rests does not tell that the camera does.
+  [[nodiscard]] virtual bool views_through_dirt() const { return false; }
   /// What of the images is not used: dark where a mask was given (of this image or of the one
   /// before) or the car is known to be, of the images' size; empty where all is used. Valid until
   /// the next call of advance().
