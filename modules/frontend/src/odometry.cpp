@@ -47,6 +47,11 @@ StepResult step_result(const FrameStamp& before, const FrameStamp& now, const Tw
   return step;
 }
 
+double share_of_inliers(const TwoView& seen) {
+  const auto points = static_cast<double>(seen.pair.size());
+  return points > 0.0 ? static_cast<double>(seen.inlier_count) / points : 1.0;
+}
+
 StepInTime step_in_time(const FrameStamp& before, const FrameStamp& now, const TwoView& seen,
                         const RelativePose& last_motion) {
   StepInTime step;
@@ -54,6 +59,7 @@ StepInTime step_in_time(const FrameStamp& before, const FrameStamp& now, const T
   step.begin_s = before.time_s;
   step.end_s = now.time_s;
   step.expected = last_motion;
+  step.resting = share_of_inliers(seen);
   return step;
 }
 
@@ -175,6 +181,7 @@ FrameResult Odometry::integrate(const FrameStamp& now, TwoView seen, const RoadP
   if (rest) {
     seen = resting(std::move(seen));
     in_time.status = seen.status;
+    in_time.resting = share_of_inliers(seen);
   }
   const MapLink link = map_.link(seen);
   if (link.began_anew) scale_.restart(before.time_s);
@@ -185,7 +192,7 @@ FrameResult Odometry::integrate(const FrameStamp& now, TwoView seen, const RoadP
   const auto begun = begin_scale(in_time, link.carried);
   // The map, which was measured by this very step, cannot confirm it.
   const auto told = begun ? std::vector<LengthMeasurement>{}
-                          : scale_.measure(seen, link.carried, attitude_.now());
+                          : scale_.measure(seen, link.carried, attitude_.now(), heading());
   setup_.follow(seen, attitude_.now().R_level_cam);
   const StepLength length = setup_.checked_after(scale_.length_of(in_time, told));
   if (seen.status == StepStatus::kOk && length.length > kTellingWay)

@@ -15,6 +15,7 @@ namespace {
 
 constexpr double kHeight = 1.5;
 constexpr double kFocal = 700.0;
+const Eigen::Vector3d kAhead = -Eigen::Vector3d::UnitZ();  // t of a car that drives on
 
 FrontEndOptions by(const char* source) {
   FrontEndOptions options;
@@ -73,7 +74,7 @@ LengthMeasurement carried(double length) {
 
 TEST(Scale, AsksTheRoadWhereTheMapDoesNotCarryTheLength) {
   Scale scale = started(by("height"));
-  const auto told = scale.measure(seen_road(0.9), std::nullopt, {});
+  const auto told = scale.measure(seen_road(0.9), std::nullopt, {}, kAhead);
   ASSERT_EQ(told.size(), 1U);
   EXPECT_EQ(told[0].source, LengthSource::kRoad);
   const StepLength length = scale.length_of(step(StepStatus::kOk, 0.0, 0.0), told);
@@ -85,7 +86,7 @@ TEST(Scale, AsksTheRoadWhereTheMapDoesNotCarryTheLength) {
 
 TEST(Scale, TakesTheMapsWordBeforeTheRoads) {
   Scale scale = started(by("height"));
-  const auto told = scale.measure(seen_road(0.9), carried(2.0), {});
+  const auto told = scale.measure(seen_road(0.9), carried(2.0), {}, kAhead);
   const StepLength length = scale.length_of(step(StepStatus::kOk, 0.0, 0.0), told);
   EXPECT_EQ(length.source, LengthSource::kMap);
   EXPECT_EQ(length.length, 2.0);
@@ -343,9 +344,10 @@ TEST(Scale, RoadThatLiesFarAheadIsTrustedLess) {
     told.reach = reach;
     return scale.length_of(step(StepStatus::kOk, 10.0, 1.0), {told}).sigma;
   };
-  EXPECT_EQ(sigma_with(0.0), 0.01);
-  EXPECT_EQ(sigma_with(7.0), 0.01) << "what cameras usually see";
-  EXPECT_NEAR(sigma_with(11.3), std::hypot(0.01, 0.02 * std::sqrt(3.0)), 1e-3);
+  const double usual = std::hypot(0.01, FrontEndOptions{}.scale.road_uncertainty);
+  EXPECT_NEAR(sigma_with(0.0), usual, 1e-12) << "one stretch of road";
+  EXPECT_NEAR(sigma_with(7.0), usual, 1e-12) << "what cameras usually see";
+  EXPECT_NEAR(sigma_with(11.3), std::hypot(usual, 0.02 * std::sqrt(3.0)), 1e-3);
   Scale by_speed = started(by("gps"));
   LengthMeasurement far{1.0, 0.01, LengthSource::kRoad, 50};
   far.reach = 12.0;

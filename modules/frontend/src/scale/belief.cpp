@@ -24,6 +24,7 @@ constexpr double kAgree = 2.0;
 constexpr double kStillness = 0.02;
 // [m or heights] a rest that is known no better than this says nothing in metres.
 constexpr double kSureRest = 0.05;
+constexpr double kMost = 0.5;  // [-] share of the points
 // [rad] of a direction that is the car's, not that of somebody who crosses.
 constexpr double kAlong = 15.0 * kDegree;
 
@@ -40,12 +41,16 @@ StepLength mean_of(const StepLength& a, const StepLength& b) {
   return result;
 }
 
+/// Whether the car stood a moment ago.
+bool speaks_for_rest(const ExpectedLength& expected) {
+  return expected.length <= kStillness && expected.sigma <= kSureRest;
+}
+
 /// Whether two views show a way along wheels, and inertia does not speak for a rest: what rests
 /// before the car may be a truck then that moves off as it does.
 bool may_follow(const TwoView& seen, const Eigen::Vector3d& heading,
                 const ExpectedLength& expected) {
-  const bool speaks = expected.length <= kStillness && expected.sigma <= kSureRest;
-  return !speaks && direction_error(seen.pose.t, heading) < kAlong;
+  return !speaks_for_rest(expected) && direction_error(seen.pose.t, heading) < kAlong;
 }
 
 /// Whether a car of which this is expected may have come to rest.
@@ -235,6 +240,9 @@ StepLength Scale::at_rest(const StepInTime& step) const {
   // While no speed is known, a bonnet rests as a road at rest does: before anything has moved the
   // car stands; afterwards that is known only where the car is.
   const bool may_be_the_car = !expected && moved_ && !step.car_is_known;
+  // Of a car that drove a moment ago most of the picture has to rest: a few points do by chance,
+  // like the edges of the blocks of a compressed picture.
+  const bool few_rest = moved_ && step.resting < kMost && !(expected && speaks_for_rest(*expected));
   if (const auto& told = step.direct) {
     const bool moves = told->length > std::max(kStillness, kMoves * told->sigma);
     if (moves && told->in_metres) {
@@ -242,7 +250,7 @@ StepLength Scale::at_rest(const StepInTime& step) const {
       if (!expected || expected->allows(direct.length, direct.sigma_m)) return direct;
       return held(step);
     }
-    result.metric = !moves && told->sigma <= kSureRest && !may_be_the_car;
+    result.metric = !moves && told->sigma <= kSureRest && !may_be_the_car && !few_rest;
     result.sigma_m = std::hypot(told->sigma, told->length);  // what it may have crept
     return result;
   }
@@ -251,7 +259,7 @@ StepLength Scale::at_rest(const StepInTime& step) const {
   // speed even identical images are no rest: a truck that fills them goes as we do. Nor does the
   // speed learn from it: it would confirm itself for as long as the truck is there.
   result.source = LengthSource::kHeld;
-  result.metric = could_stand(expected) && expected->sigma <= kSureRest;
+  result.metric = could_stand(expected) && expected->sigma <= kSureRest && !few_rest;
   if (result.metric) result.sigma_m = expected->sigma;
   return result;
 }

@@ -80,6 +80,7 @@ std::optional<MeasuredTravel> road_travel(const RoadPair& road, const TwoView& s
   RoadStep step;
   step.T_2_1 = {seen.pose.R, directed ? seen.pose.t : prior.heading};
   if (!step.T_2_1.is_finite() || !(step.T_2_1.t.norm() > 0.0)) return std::nullopt;
+  if (!goes_along(step.T_2_1.t, prior.heading)) return std::nullopt;
   const double direction_sigma =
       directed ? rms(seen.covariance.bottomRightCorner<3, 3>(), kTravelSigma) : kHeadingSigma;
   step.information =

@@ -1,6 +1,7 @@
 #include "scale.h"
 
 #include "depth_scale.h"
+#include "room.h"
 #include "stereo_travel.h"
 
 #include "oneac/frontend/front_end_options.h"
@@ -68,9 +69,11 @@ void Scale::restart(double time_s) {
 
 std::vector<LengthMeasurement> Scale::measure(const TwoView& seen,
                                               const std::optional<LengthMeasurement>& carried,
-                                              const Levelling& first) const {
+                                              const Levelling& first,
+                                              const Eigen::Vector3d& heading) const {
   if (carried) return {*carried};
   if (seen.status != StepStatus::kOk || !(camera_height() > 0.0)) return {};
+  if (!goes_along(seen.pose.t, heading)) return {};
   const auto road =
       road_.measure(affine_parts(seen.pair), seen.inliers, seen.pose, first, seen.focal_px);
   if (!road) return {};
@@ -81,6 +84,7 @@ std::optional<MeasuredTravel> Scale::measure_directly(
     const RoadPair& road, const TwoView& seen, const std::optional<LengthMeasurement>& carried,
     const Levelling& first, const Eigen::Vector3d& heading, const StepInTime& step) {
   if (metres_ == LengthSource::kStereo) return stereo_travel(seen, heading, least_depths_);
+  roll_sigma_ = first.roll_sigma;
   const bool resting = seen.status == StepStatus::kNoMotion;
   const bool in_use = metres_ == LengthSource::kRoad && camera_height() > 0.0;
   const StepLength by_map = carried ? stated(*carried) : StepLength{};
@@ -144,10 +148,22 @@ double Scale::curve_doubt() const {
   return road_uncertainty_ * std::sqrt(std::max(more * more - 1.0, 0.0));
 }
 
+/// A road one height to the side, half a lane, is lower by the roll's error than it is taken for.
+/// Straight ways do not show that error, and it stays for a drive.
+double Scale::roll_doubt() const {
+  return metres_ == LengthSource::kRoad ? roll_sigma_ : 0.0;
+}
+
+/// What the road's bumps and the springs add to lengths that a single stretch of it told, be it by
+/// the speed that it told before; the map's filter has it already.
+double Scale::road_doubt(LengthSource source) const {
+  return metres_ == LengthSource::kRoad && source != LengthSource::kMap ? road_uncertainty_ : 0.0;
+}
+
 /// With what camera and road add to its σ: all lengths share it, so that nothing that compares two
 /// of them has to know it.
 StepLength Scale::with_doubt(StepLength length) const {
-  const double doubt = shared_doubt();
+  const double doubt = std::hypot(shared_doubt(), road_doubt(length.source));
   if (!length.metric || !(length.length > 0.0) || !(doubt > 0.0)) return length;
   const bool sure = is_sure(length.sigma, doubt, max_uncertainty_);
   length.sigma = std::hypot(length.sigma, doubt);

@@ -23,6 +23,7 @@ struct StepInTime {
   double begin_s = 0.0, end_s = 0.0;     ///< [s] Unix times of the two frames
   RelativePose expected;                 ///< motion of the step before, length as used
   std::optional<MeasuredTravel> direct;  ///< what the road's grey values or stereo say of it
+  double resting = 1.0;                  ///< share of the points that rest, of a step at rest
   bool car_is_known = true;              ///< what rests in the images is not the car's own
   bool shows_travel = false;             ///< the images show travel, whatever rests in them
   bool through_dirt = false;             ///< what rests may be drops or dirt on the glass
@@ -53,9 +54,10 @@ class Scale {
   /// Who tells the length of a step, the surest first. The road is asked only when the map does not
   /// carry it.
   /// @param carried  by the landmarks of the map [map]
+  /// @param heading  t̂ of a camera that goes on as it did
   [[nodiscard]] std::vector<LengthMeasurement> measure(
-      const TwoView& seen, const std::optional<LengthMeasurement>& carried,
-      const Levelling& first) const;
+      const TwoView& seen, const std::optional<LengthMeasurement>& carried, const Levelling& first,
+      const Eigen::Vector3d& heading) const;
   /// What the step itself says of its length: depths by stereo where these are the metres, else
   /// the grey values of the road, asked where they are needed: where the map does not carry the
   /// length, where rest is in question, and now and then as a check.
@@ -156,8 +158,13 @@ class Scale {
   void look_ahead(double reach);
   /// Relative 1σ of lengths for the road's curve between the car and what is looked at.
   [[nodiscard]] double curve_doubt() const;
-  /// Relative 1σ that all lengths share beside their own: by the camera and by that curve.
-  [[nodiscard]] double shared_doubt() const { return std::hypot(camera_doubt(), curve_doubt()); }
+  /// Relative 1σ of lengths for the road's fall from side to side against the camera's roll.
+  [[nodiscard]] double roll_doubt() const;
+  /// Relative 1σ that all lengths share beside their own: by camera, roll and that curve.
+  [[nodiscard]] double shared_doubt() const {
+    return std::hypot(camera_doubt(), curve_doubt(), roll_doubt());
+  }
+  [[nodiscard]] double road_doubt(LengthSource source) const;
   [[nodiscard]] StepLength with_doubt(StepLength length) const;
   [[nodiscard]] StepLength together(const StepLength& a, const StepLength& b,
                                     const std::optional<ExpectedLength>& expected) const;
@@ -206,6 +213,7 @@ class Scale {
   int beside_stamps_ = 0;  ///< steps in which two others agreed on what inertia does not allow
   double camera_doubt_ = 0.0;
   double road_uncertainty_;  ///< [-] 1σ of the height above the road ahead
+  double roll_sigma_ = 0.0;  ///< [rad] 1σ of the camera's roll against the road
   double reach2_ = 0.0;      ///< [heights²] of the road that lengths rest on
   bool doubted_ = false;     ///< somebody told metres that inertia does not allow, and nobody since
 };
