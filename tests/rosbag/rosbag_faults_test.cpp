@@ -141,6 +141,20 @@ TEST_F(RosbagFaults, OfTheChoiceOfTopicsAreNamed) {
   expect_refused("no topic of it has images");
 }
 
+TEST_F(RosbagFaults, OfADefinitionThatIsNotRossAreNamed) {
+  write_drive();
+  std::string bytes = read_file(bag());
+  const std::string md5 = ros::message_traits::md5sum<sensor_msgs::Image>();
+  std::size_t found = 0;
+  for (std::size_t at = bytes.find(md5); at != std::string::npos; at = bytes.find(md5, at)) {
+    bytes[at] = bytes[at] == 'f' ? 'e' : 'f';
+    ++found;
+  }
+  ASSERT_GT(found, 0U);
+  write_text(bag(), bytes);
+  expect_refused("/cam/image_raw: its messages are another sensor_msgs/Image than ROS 1's");
+}
+
 TEST_F(RosbagFaults, OfAPairAreNamed) {
   const auto write_pair = [&](const std::string& topic, double right_m, int late) {
     rosbag::Bag made(bag().string(), rosbag::bagmode::Write);
