@@ -1,8 +1,10 @@
 #include "commands.h"
 
+#include "oneac/base/printable.h"
 #include "oneac/rawlog/import_drive.h"
 #include "oneac/rawlog/import_kitti.h"
 #include "oneac/rawlog/import_malaga.h"
+#include "oneac/rawlog/import_rosbag.h"
 
 #include <CLI/CLI.hpp>
 
@@ -22,8 +24,10 @@ void print(const ImportReport& report) {
   std::cout << "log     " << report.log.string() << '\n'
             << "cameras " << report.observations << " observations, " << report.images
             << " images\n";
-  if (report.gps + report.imu > 0) {
-    std::cout << "sensors " << report.gps << " GPS epochs, " << report.imu << " IMU samples\n";
+  if (report.gps + report.imu + report.wheels > 0) {
+    std::cout << "sensors " << report.gps << " GPS epochs, " << report.imu << " IMU samples";
+    if (report.wheels > 0) std::cout << ", " << report.wheels << " odometer readings";
+    std::cout << '\n';
   }
   if (!report.poses.empty()) std::cout << "poses   " << report.poses.string() << '\n';
 }
@@ -91,6 +95,50 @@ void add_video(CLI::App& import) {
   verb->callback([options] { print(import_video(*options)); });
 }
 
+/// Name, type and count of each, for who has to choose.
+void print(const std::vector<BagTopic>& topics) {
+  std::size_t name = 0, type = 0;
+  for (const BagTopic& topic : topics) {
+    name = std::max(name, topic.name.size());
+    type = std::max(type, topic.type.size());
+  }
+  for (const BagTopic& topic : topics) {
+    const std::string count = std::to_string(topic.messages);
+    std::cout << printable(topic.name) << std::string(name - topic.name.size() + 2, ' ')
+              << printable(topic.type) << std::string(type - topic.type.size() + 2, ' ') << count
+              << '\n';
+  }
+}
+
+/// Without a choice of the images, and with several to choose from, what there is is listed.
+void import_bag(const RosbagImport& options) {
+  if (options.image_topic.empty()) {
+    const std::vector<BagTopic> topics = topics_of_bag(options.source);
+    if (std::count_if(topics.begin(), topics.end(), has_images) != 1) print(topics);
+  }
+  print(import_rosbag(options));
+}
+
+void add_rosbag(CLI::App& import) {
+  auto* verb = import.add_subcommand(
+      "rosbag", "A bag of ROS 1, whose images are written to <log>_Images; ROS 2: rosbag2rawlog");
+  const auto options = std::make_shared<RosbagImport>();
+  add_drive(*verb, *options, "FILE.bag; its topics are listed where its images have to be chosen");
+  verb->add_option("--image-topic", options->image_topic,
+                   "Image or CompressedImage; without it the only one there is");
+  verb->add_option("--right-topic", options->right_topic,
+                   "The same of the right camera of a rectified pair");
+  verb->add_option("--camera-info-topic", options->camera_info_topic,
+                   "CameraInfo; without it the one beside the images, or the only one");
+  verb->add_option("--gps-topic", options->gps_topic,
+                   "NavSatFix; without it the only one there is");
+  verb->add_option("--imu-topic", options->imu_topic,
+                   "Imu with the axes of the vehicle: X ahead, Y left, Z up");
+  verb->add_option("--wheels-topic", options->wheels_topic,
+                   "Odometry of the wheels alone, not of a filter");
+  verb->callback([options] { import_bag(*options); });
+}
+
 DriveImport drive_of(const KittiImport& options) {
   DriveImport drive;
   drive.source = options.source;
@@ -153,8 +201,8 @@ void add_malaga(CLI::App& import) {
 }  // namespace
 
 void add_import(CLI::App& program) {
-  auto* verb =
-      program.add_subcommand("import", "Image folders, videos and text files to a native rawlog");
+  auto* verb = program.add_subcommand(
+      "import", "Image folders, videos, bags and text files to a native rawlog");
   verb->require_subcommand(1);
   add_kitti(*verb);
   add_malaga(*verb);
@@ -164,6 +212,7 @@ void add_import(CLI::App& program) {
       "of EXIF; or --fps",
       import_image_folder);
   add_video(*verb);
+  add_rosbag(*verb);
   add_folder(*verb, "euroc", "EuRoC sequence",
              "Folder with mav0, or mav0 itself: cam0/data.csv, "
              "cam0/data, cam0/sensor.yaml",

@@ -245,5 +245,35 @@ TEST_F(Imports, OfAVideoGiveThePosesOfItsDecodedFrames) {
   expect_same(poses, poses_of(import("kitti", "kitti")), "video");
 }
 
+/// Whatever reads bags: these say so before.
+TEST_F(Imports, OfABagOfAnotherKindSayWhatToDo) {
+  const auto refusal = [&](const std::string& program, const fs::path& bag) {
+    const ProgramResult result = run_program(
+        {program, "import", "rosbag", bag.string(), "-o", (scratch() / "o.rawlog").string()});
+    EXPECT_EQ(result.exit_code, 2) << result.out;
+    EXPECT_EQ(std::count(result.err.begin(), result.err.end(), '\n'), 1) << result.err;
+    return result.err;
+  };
+  fs::create_directories(scratch() / "ros2");
+  write_text(scratch() / "ros2" / "metadata.yaml", "rosbag2_bagfile_information:\n");
+  write_text(scratch() / "a.db3", "SQLite format 3");
+  write_text(scratch() / "a.bag", "\x89MCAP0\r\n");
+  for (const char* bag : {"ros2", "a.db3", "a.bag"}) {
+    const std::string line = refusal(ONEAC_PROGRAM, scratch() / bag);
+    EXPECT_NE(line.find("is a bag of ROS 2"), std::string::npos) << line;
+    EXPECT_NE(line.find("rosbag2rawlog"), std::string::npos) << line;
+  }
+  write_text(scratch() / "old.bag", "#ROSRECORD V1.1\n");
+  EXPECT_NE(refusal(ONEAC_PROGRAM, scratch() / "old.bag").find("before 2.0"), std::string::npos);
+  write_text(scratch() / "text.bag", "no bag at all");
+  EXPECT_NE(refusal(ONEAC_PROGRAM, scratch() / "text.bag").find("no bag of ROS"),
+            std::string::npos);
+  // A program without the one that reads bags beside it.
+  write_text(scratch() / "drive.bag", "#ROSBAG V2.0\n");
+  fs::copy_file(ONEAC_PROGRAM, scratch() / "oneac");
+  const std::string line = refusal((scratch() / "oneac").string(), scratch() / "drive.bag");
+  EXPECT_NE(line.find("install librosbag-storage-dev"), std::string::npos) << line;
+}
+
 }  // namespace
 }  // namespace oneac

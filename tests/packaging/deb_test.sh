@@ -23,6 +23,7 @@ for file in /usr/bin/oneac /usr/lib/oneac/oneac_rivals.so liboneac_frontend.a on
   /usr/share/doc/oneac/copyright; do
   expect_output "$file"
 done
+[ ! -e "$1/apps/oneac/oneac_rosbag" ] || expect_output /usr/lib/oneac/oneac_rosbag
 if [ -d "$1/python/oneac" ]; then
   expect_output /usr/lib/python3/dist-packages/oneac/_oneac.cpython
   expect_output /usr/lib/python3/dist-packages/oneac/py.typed

@@ -54,4 +54,14 @@ std::string content_hash(const fs::path& path) {
   return text;
 }
 
+fs::path file_of_program(const std::string& name) {
+  std::error_code ignored;
+  const fs::path beside = fs::read_symlink("/proc/self/exe", ignored).parent_path();
+  for (const fs::path& folder : {beside, beside.parent_path() / "lib" / "oneac"}) {
+    fs::path candidate = folder / name;
+    if (fault_of_file(candidate).empty()) return candidate;
+  }
+  return {};
+}
+
 }  // namespace oneac

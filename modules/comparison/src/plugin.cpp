@@ -89,11 +89,7 @@ void load_plugin(const fs::path& library) {
 }
 
 fs::path find_plugin(const std::string& name) {
-  const fs::path beside = fs::read_symlink("/proc/self/exe").parent_path();
-  for (const fs::path& folder : {beside, beside.parent_path() / "lib" / "oneac"}) {
-    fs::path candidate = folder / (name + ".so");
-    if (fault_of_file(candidate).empty()) return candidate;
-  }
+  if (fs::path library = file_of_program(name + ".so"); !library.empty()) return library;
   throw InputError(name + ".so", "is not beside the program nor in ../lib/oneac",
                    "build oneac with OpenCV and OpenGV, target " + name);
 }

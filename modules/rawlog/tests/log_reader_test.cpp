@@ -6,9 +6,14 @@
 
 #include <gtest/gtest.h>
 #include <mrpt/obs/CActionCollection.h>
+#include <mrpt/obs/CActionRobotMovement2D.h>
 #include <mrpt/obs/CObservationComment.h>
+#include <mrpt/obs/CObservationOdometry.h>
 #include <mrpt/obs/CSensoryFrame.h>
 #include <mrpt/poses/CPose3D.h>
+
+#include <cmath>
+#include <vector>
 
 namespace oneac {
 namespace {
@@ -85,6 +90,38 @@ TEST_F(Reader, ReadsBothFormatsMixed) {
   EXPECT_EQ(reader.next()->number, 3U);
   EXPECT_FALSE(reader.next());
   EXPECT_EQ(reader.format(), "mixed");
+}
+
+mrpt::obs::CActionCollection::Ptr driven(double ahead, double turn, double time_s) {
+  mrpt::obs::CActionRobotMovement2D movement;
+  movement.computeFromOdometry({ahead, 0.0, turn}, {});
+  movement.timestamp = time_s > 0.0 ? mrpt::Clock::fromDouble(time_s) : INVALID_TIMESTAMP;
+  auto actions = mrpt::obs::CActionCollection::Create();
+  actions->insert(movement);
+  return actions;
+}
+
+TEST_F(Reader, AddsUpTheOdometryOfActions) {
+  auto frame = mrpt::obs::CSensoryFrame::Create();
+  *frame += mrpt::obs::CObservation::Ptr(rmc(12, 1, 1));
+  test::write_log(file_, {driven(2.0, M_PI / 2, 1300000000.0), driven(NAN, 0.0, 1300000001.0),
+                          driven(2.0, M_PI / 2, 1300000002.0), driven(1.0, 0.0, 0.0), frame});
+  LogReader reader(file_);
+  std::vector<mrpt::obs::CObservationOdometry::Ptr> told;
+  mrpt::Clock::time_point of_frame;
+  while (const auto record = reader.next()) {
+    const auto wheels =
+        std::dynamic_pointer_cast<mrpt::obs::CObservationOdometry>(record->observation);
+    if (wheels) told.push_back(wheels);
+    if (!wheels) of_frame = record->observation->timestamp;
+  }
+  ASSERT_EQ(told.size(), 3U);
+  EXPECT_NEAR(told[0]->odometry.x(), 2.0, 1e-9);
+  EXPECT_NEAR(told[1]->odometry.x(), 2.0, 1e-9);  // begun anew
+  EXPECT_NEAR(told[2]->odometry.x(), 2.0, 1e-9);
+  EXPECT_NEAR(told[2]->odometry.y(), 1.0, 1e-9);
+  EXPECT_EQ(told[0]->timestamp, mrpt::Clock::fromDouble(1300000000.0));
+  EXPECT_EQ(told[2]->timestamp, of_frame);
 }
 
 TEST_F(Reader, StopsAtARecordThatIsGarbage) {

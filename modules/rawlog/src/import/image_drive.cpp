@@ -41,12 +41,16 @@ class DriveWriter {
     for (const ImuRecord& sample : drive_.imu) {
       pending.push_back({sample.time_s, [&sample](RawlogWriter& log) { log.write(sample); }});
     }
+    for (const OdometryRecord& wheels : drive_.wheels) {
+      pending.push_back({wheels.time_s, [&wheels](RawlogWriter& log) { log.write(wheels); }});
+    }
     write_in_order(std::move(pending), log_);
     log_.close();
     report.observations = drive_.images.size();
     report.images = drive_.images.size() + rights_;
     report.gps = drive_.gps.size();
     report.imu = drive_.imu.size();
+    report.wheels = drive_.wheels.size();
   }
 
  private:
@@ -104,7 +108,11 @@ void write_drive(const ImageDrive& drive, const fs::path& log, bool copy_images,
 
 PinholeCamera calibration_for(const std::string& file_and_section, const fs::path& image,
                               ImportReport& report) {
-  PinholeCamera camera = load_calibration(file_and_section, "left");
+  return fitted_to(image, load_calibration(file_and_section, "left"), file_and_section, report);
+}
+
+PinholeCamera fitted_to(const fs::path& image, PinholeCamera camera, const std::string& where,
+                        ImportReport& report) {
   const auto [width, height] = image_size(image);
   if (camera.width == 0 || camera.height == 0) {
     camera.width = width;
@@ -115,7 +123,7 @@ PinholeCamera calibration_for(const std::string& file_and_section, const fs::pat
                             ", the images are " + size_text(width, height);
   const auto scaled = resized(camera, width, height);
   if (!scaled) {
-    throw InputError(file_and_section, sizes, "give the calibration of these images");
+    throw InputError(where, sizes, "give the calibration of these images");
   }
   report.notes.push_back("the calibration " + sizes +
                          ": it was scaled to them; give their own if they were cropped");
@@ -170,12 +178,16 @@ std::vector<double> stamps_of_fps(double fps, std::size_t images) {
                    "give images per second, from 0.5 to 250");
 }
 
+bool is_baseline(double baseline_m) {
+  constexpr double kShortest_m = 0.05, kLongest_m = 3.0;  // a vehicle is no wider
+  return baseline_m >= kShortest_m && baseline_m <= kLongest_m;
+}
+
 std::optional<RightImages> kitti_right_images(const std::vector<fs::path>& left,
                                               const fs::path& folder, const fs::path& calibration,
                                               const std::string& left_projection,
                                               const std::string& right_projection,
                                               ImportReport& report) {
-  constexpr double kShortest_m = 0.05, kLongest_m = 3.0;  // a vehicle is no wider
   std::error_code ignored;
   if (!fs::is_directory(folder, ignored)) return std::nullopt;
   const std::string name = folder.filename().string();
@@ -191,7 +203,7 @@ std::optional<RightImages> kitti_right_images(const std::vector<fs::path>& left,
   }
   RightImages right;
   right.baseline_m = P0->tx / P0->fx - P1->tx / P1->fx;
-  if (!(right.baseline_m >= kShortest_m && right.baseline_m <= kLongest_m)) {
+  if (!is_baseline(right.baseline_m)) {
     return leave_out(right_projection + " is " + exact_text(right.baseline_m) +
                      " m to the right of " + left_projection);
   }

@@ -31,6 +31,7 @@ struct ImageDrive {
   MountConvention convention = MountConvention::optical;
   std::vector<GpsRecord> gps;
   std::vector<ImuRecord> imu;
+  std::vector<OdometryRecord> wheels;
 };
 
 /// Writes the drive in the order of its times and counts it.
@@ -43,6 +44,10 @@ void write_drive(const ImageDrive& drive, const std::filesystem::path& log, bool
 [[nodiscard]] PinholeCamera calibration_for(const std::string& file_and_section,
                                             const std::filesystem::path& image,
                                             ImportReport& report);
+
+/// The same of a camera that is known already. @param where  for the error
+[[nodiscard]] PinholeCamera fitted_to(const std::filesystem::path& image, PinholeCamera camera,
+                                      const std::string& where, ImportReport& report);
 
 /// The same out of --calibration. @throws InputError when none is given
 [[nodiscard]] PinholeCamera given_calibration(const DriveImport& options,
@@ -63,6 +68,9 @@ void note_order(const std::vector<std::filesystem::path>& images, ImportReport& 
 
 /// Those of --fps. @throws InputError for a rate that no camera has
 [[nodiscard]] std::vector<double> stamps_of_fps(double fps, std::size_t images);
+
+/// Whether the cameras of a pair on a vehicle can be so far apart [m].
+[[nodiscard]] bool is_baseline(double baseline_m);
 
 /// The files of `folder` with the names of the left images, and the baseline between two
 /// projections "P0" and "P1" of a KITTI calibration file; none, with a note, where they do not fit.

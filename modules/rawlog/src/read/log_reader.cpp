@@ -114,6 +114,7 @@ bool LogReader::read_record() {
 }
 
 void LogReader::take(const mrpt::serialization::CSerializable::Ptr& object) {
+  using mrpt::obs::CActionCollection;
   using mrpt::obs::CSensoryFrame;
   if (!object) return;
   const auto images = std::make_shared<const LogImages>(archive_->guarded.take_images());
@@ -122,18 +123,40 @@ void LogReader::take(const mrpt::serialization::CSerializable::Ptr& object) {
     has_observations_ = true;
     ready_.push_back({records_, std::move(observation), images});
   } else if (const auto frame = std::dynamic_pointer_cast<CSensoryFrame>(object)) {
-    has_pairs_ = true;
-    for (const auto& part : *frame) {
-      if (part) check_cameras(*part);
-    }
-    for (const auto& part : *frame) {
-      if (part) ready_.push_back({records_, part, images});
-    }
-  } else if (std::dynamic_pointer_cast<mrpt::obs::CActionCollection>(object)) {
-    has_pairs_ = true;
+    take_frame(*frame, images);
+  } else if (const auto actions = std::dynamic_pointer_cast<CActionCollection>(object)) {
+    take_actions(*actions, images);
   } else if (records_ == 0) {
     throw std::runtime_error("it begins with a " + compat::class_name(*object));
   }  // other objects may be stored between observations: not ours
+}
+
+void LogReader::take_actions(mrpt::obs::CActionCollection& actions,
+                             const std::shared_ptr<const LogImages>& images) {
+  has_pairs_ = true;
+  auto odometry = odometry_.take(actions);
+  if (!odometry) return;
+  if (odometry->timestamp == INVALID_TIMESTAMP) {
+    without_time_ = std::move(odometry);
+  } else {
+    ready_.push_back({records_, std::move(odometry), images});
+  }
+}
+
+void LogReader::take_frame(const mrpt::obs::CSensoryFrame& frame,
+                           const std::shared_ptr<const LogImages>& images) {
+  has_pairs_ = true;
+  for (const auto& part : frame) {
+    if (part) check_cameras(*part);
+  }
+  for (const auto& part : frame) {
+    if (!part) continue;
+    if (without_time_ && part->timestamp != INVALID_TIMESTAMP) {
+      without_time_->timestamp = part->timestamp;
+      ready_.push_back({records_, std::exchange(without_time_, nullptr), images});
+    }
+    ready_.push_back({records_, part, images});
+  }
 }
 
 void LogReader::set_damage(const std::string& said) {

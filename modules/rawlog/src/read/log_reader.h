@@ -1,10 +1,12 @@
 #pragma once
 
 #include "images/log_image.h"
+#include "read/action_odometry.h"
 
 #include "oneac/base/error.h"
 
 #include <mrpt/obs/CObservation.h>
+#include <mrpt/obs/CSensoryFrame.h>
 
 #include <cstddef>
 #include <deque>
@@ -25,7 +27,7 @@ struct RawlogRecord {
 };
 
 /// Streams the observations of a rawlog in log order: out of plain observations and out of sensory
-/// frames alike. Holds one record at a time.
+/// frames alike, and the odometry of actions as that of an odometer. Holds one record at a time.
 ///
 /// After damage it ends; what came before it has been delivered.
 class LogReader {
@@ -47,11 +49,17 @@ class LogReader {
   struct Archive;
   bool read_record();
   void take(const std::shared_ptr<mrpt::serialization::CSerializable>& object);
+  void take_actions(mrpt::obs::CActionCollection& actions,
+                    const std::shared_ptr<const LogImages>& images);
+  void take_frame(const mrpt::obs::CSensoryFrame& frame,
+                  const std::shared_ptr<const LogImages>& images);
   void set_damage(const std::string& said);
 
   std::filesystem::path log_;
   std::unique_ptr<Archive> archive_;
   std::deque<RawlogRecord> ready_;
+  ActionOdometry odometry_;
+  mrpt::obs::CObservationOdometry::Ptr without_time_;  ///< gets that of the frame that follows
   std::size_t records_ = 0;
   bool has_pairs_ = false;
   bool has_observations_ = false;

@@ -14,4 +14,8 @@ namespace oneac {
 /// apart, not against forgery; "" when the file cannot be read.
 [[nodiscard]] std::string content_hash(const std::filesystem::path& path);
 
+/// A file that came with the running program: beside it, or in ../lib/oneac from there; "" where it
+/// is in neither.
+[[nodiscard]] std::filesystem::path file_of_program(const std::string& name);
+
 }  // namespace oneac

@@ -15,6 +15,7 @@ struct ImportReport {
   std::size_t observations = 0;    ///< of cameras: a stereo pair counts once
   std::size_t gps = 0;             ///< epochs
   std::size_t imu = 0;             ///< samples
+  std::size_t wheels = 0;          ///< readings of an odometer
   std::vector<std::string> notes;  ///< one line each: what was assumed or left out
 };
 

@@ -1,0 +1,31 @@
+# Finds ROS 1's library of bags and defines RosbagStorage::RosbagStorage. Debian's configurations of
+# it want a workspace of catkin, or a pkg-config file of pluginlib that there is not.
+set(rosbag_folders "")
+set(rosbag_libraries "")
+set(rosbag_required "")
+find_path(RosbagStorage_INCLUDE_DIR rosbag/bag.h)
+find_path(RosbagStorage_pluginlib_DIR pluginlib/class_loader.hpp PATH_SUFFIXES pluginlib)
+find_path(RosbagStorage_class_loader_DIR class_loader/class_loader.hpp PATH_SUFFIXES class_loader)
+find_path(RosbagStorage_rcutils_DIR rcutils/types.h PATH_SUFFIXES rcutils)
+find_path(RosbagStorage_rcpputils_DIR rcpputils/shared_library.hpp PATH_SUFFIXES rcpputils)
+find_path(RosbagStorage_ament_index_DIR ament_index_cpp/get_package_prefix.hpp
+          PATH_SUFFIXES ament_index_cpp)
+foreach(folder INCLUDE pluginlib class_loader rcutils rcpputils ament_index)
+  list(APPEND rosbag_folders "${RosbagStorage_${folder}_DIR}")
+  list(APPEND rosbag_required RosbagStorage_${folder}_DIR)
+endforeach()
+foreach(library rosbag_storage roscpp_serialization rostime cpp_common console_bridge)
+  find_library(RosbagStorage_${library} ${library})
+  list(APPEND rosbag_libraries "${RosbagStorage_${library}}")
+  list(APPEND rosbag_required RosbagStorage_${library})
+endforeach()
+include(FindPackageHandleStandardArgs)
+find_package_handle_standard_args(RosbagStorage REQUIRED_VARS ${rosbag_required})
+if(RosbagStorage_FOUND AND NOT TARGET RosbagStorage::RosbagStorage)
+  list(REMOVE_DUPLICATES rosbag_folders)
+  add_library(RosbagStorage::RosbagStorage INTERFACE IMPORTED)
+  set_target_properties(RosbagStorage::RosbagStorage PROPERTIES
+    INTERFACE_LINK_LIBRARIES "${rosbag_libraries}"
+    INTERFACE_INCLUDE_DIRECTORIES "${rosbag_folders}")
+endif()
+mark_as_advanced(${rosbag_required})
