@@ -40,6 +40,7 @@ struct RunFlags {
   bool quiet = false;
   bool gui = false;
   bool loops = false;
+  bool global_ba = false;
 };
 
 /// Before the results of an earlier run are taken away: a mistyped name costs nobody a drive.
@@ -54,6 +55,7 @@ void settle(RunFlags& flags) {
   if (flags.no_progress) options.run.progress = false;
   if (flags.quiet) options.run.quiet = true;
   if (flags.loops) options.run.loops = true;
+  if (flags.global_ba) options.run.global_ba = true;
   options.validate();
   if (flags.logs.empty()) throw InputError("run", "no rawlog given", "oneac run LOG -o DIR");
   if (options.output.empty()) throw InputError("run", "no output folder given", "add -o DIR");
@@ -127,6 +129,8 @@ void add_run(CLI::App& program) {
   verb->add_flag("--loops", flags->loops,
                  "find places seen again, measure them in metres, close the drive by them; join "
                  "several logs, whose results go to DIR/1, DIR/2, ...");
+  verb->add_flag("--global-ba", flags->global_ba,
+                 "with --loops: then adjust all keyframes and what they saw together");
   verb->add_flag("--gui", flags->gui, "show the drive in a window while it is computed");
   verb->add_flag("--no-progress", flags->no_progress, "no progress bar");
   verb->add_flag("--quiet", flags->quiet, "no progress bar, notes or warnings");

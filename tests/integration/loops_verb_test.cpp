@@ -217,6 +217,34 @@ TEST_F(LoopsVerb, GiveTheSameBytesAtAnyThreadCount) {
   }
 }
 
+TEST_F(LoopsVerb, AdjustTheWholeDriveWhereThatIsAskedFor) {
+  run("block", "adjusted", {"--loops", "--global-ba"});
+  const fs::path out = folder("adjusted");
+  for (const char* name : {"loops.csv", "graph.g2o", "trajectory_camera.kitti", "keyframes.tum"}) {
+    EXPECT_EQ(read_file(out / name), read_file(folder("closed") / name)) << name;
+  }
+  for (const char* name : {"trajectory_optimised_camera.kitti", "keyframes_optimised.tum",
+                           "points.ply", "map.simplemap"}) {
+    EXPECT_NE(read_file(out / name), read_file(folder("closed") / name)) << name;
+  }
+  const auto loops = nlohmann::json::parse(read_file(out / "summary.json"))["loops"];
+  const auto& global = loops["global_ba"];
+  ASSERT_EQ(global["adjusted"], true) << global["reason"];
+  EXPECT_LT(global["reprojection_rms_after_px"], global["reprojection_rms_before_px"]);
+  const auto before = nlohmann::json::parse(read_file(folder("closed") / "summary.json"))["loops"];
+  EXPECT_LT(loops["ape_after_m"], 1.05 * before["ape_after_m"].get<double>());
+  EXPECT_FALSE(before.contains("global_ba"));
+  EXPECT_NE(read_file(out / "report.html").find("Global bundle adjustment"), std::string::npos);
+}
+
+TEST_F(LoopsVerb, HaveToBeAskedForWithTheGlobalAdjustment) {
+  const ProgramResult refused =
+      oneac_program({"run", (folder("block") / "simulated.rawlog").string(), "-o",
+                     folder("refused").string(), "--global-ba"});
+  EXPECT_EQ(refused.exit_code, 2);
+  EXPECT_NE(refused.err.find("add --loops"), std::string::npos) << refused.err;
+}
+
 TEST_F(LoopsVerb, AreNotTakenInByStreetsThatLookAlike) {
   simulate("alike", {"--alike"});
   run("alike", "trap", {"--loops"});

@@ -34,6 +34,12 @@ void DriveRecord::take(Settled settled) {
   std::move(settled.keyframes.begin(), settled.keyframes.end(), std::back_inserter(keyframes));
 }
 
+void DriveRecord::take(SettledTracks settled) {
+  const auto& [sightings, of_points] = settled;
+  tracks.sightings.insert(tracks.sightings.end(), sightings.begin(), sightings.end());
+  tracks.of_points.insert(tracks.of_points.end(), of_points.begin(), of_points.end());
+}
+
 void DriveRecord::doubt_metres(double doubt, double max_uncertainty) {
   for (FrameResult& frame : frames) {
     if (frame.step) oneac::doubt_metres(*frame.step, doubt, max_uncertainty);

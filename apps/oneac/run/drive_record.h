@@ -26,6 +26,7 @@ struct DriveRecord {
   std::vector<FrameResult> frames;
   std::vector<Keyframe> keyframes;  ///< settled ones, in order
   std::vector<double> decode_ms;    ///< one per frame
+  SettledTracks tracks;             ///< of the keyframes; empty unless they were asked for
   Eigen::Isometry3d T_vehicle_cam = CameraFrame::forward_looking_mount();  ///< as the log says
   PinholeCamera camera;
   std::string tilt_source;     ///< that was used: front_end.tilt.source, or what stood in for it
@@ -58,6 +59,7 @@ struct DriveRecord {
   [[nodiscard]] double car_mask_share() const;
   /// Takes over what has become final.
   void take(Settled settled);
+  void take(SettledTracks settled);
   /// Every length is as unsure as the camera makes it, the steps before it was known, too.
   /// @param doubt, max_uncertainty  relative 1σ, see doubt_metres() of a step
   void doubt_metres(double doubt, double max_uncertainty);

@@ -105,6 +105,7 @@ class Drive {
   static FrontEndOptions front_end_options(const RunOptions& options) {
     FrontEndOptions front_end = options.front_end;
     front_end.seed = static_cast<std::size_t>(options.run.seed);
+    front_end.window.keep_sightings = options.run.global_ba;
     return front_end;
   }
 
@@ -181,6 +182,7 @@ class Drive {
     Settled settled = std::exchange(result.settled, {});
     record_.frames.push_back(std::move(result));
     record_.take(std::move(settled));
+    record_.take(front_end_.take_tracks());
     record_.decode_ms.push_back(prepared.decode_ms);
     record_.tilt = front_end_.tilt();
     if (is_first) record_.given_tilt = record_.tilt;
@@ -212,6 +214,7 @@ class Drive {
 
   void finish() {
     record_.take(front_end_.finish());
+    record_.take(front_end_.take_tracks());
     record_.interrupted = interrupted();
     if (!record_.interrupted) source_.finish();
     record_.source = source_.report();

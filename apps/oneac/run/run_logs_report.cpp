@@ -128,18 +128,19 @@ std::string logs_summary_json(const std::vector<RecordedDrive>& drives, const Cl
                     {"loops_to_other_logs", drive.loops_to_others}});
   }
   const LoopReport& report = closed.report;
-  const Json json = {{"version", version()},
-                     {"logs", logs},
-                     {"loops",
-                      {{"loops", closed.graph.loops.size()},
-                       {"between_logs", loops_between_logs(closed)},
-                       {"keyframes", report.keyframes},
-                       {"keyframes_not_metric", report.not_metric},
-                       {"pairs_alike", report.candidates},
-                       {"pairs_verified", report.verified},
-                       {"refused_by_odometry", report.impossible},
-                       {"refused_by_other_loops", report.contradicted}}},
-                     {"timing", {{"wall_s", wall_seconds}}}};
+  Json json = {{"version", version()},
+               {"logs", logs},
+               {"loops",
+                {{"loops", closed.graph.loops.size()},
+                 {"between_logs", loops_between_logs(closed)},
+                 {"keyframes", report.keyframes},
+                 {"keyframes_not_metric", report.not_metric},
+                 {"pairs_alike", report.candidates},
+                 {"pairs_verified", report.verified},
+                 {"refused_by_odometry", report.impossible},
+                 {"refused_by_other_loops", report.contradicted}}}};
+  if (closed.global) json["loops"]["global_ba"] = global_json(*closed.global);
+  json["timing"] = {{"wall_s", wall_seconds}};
   return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
@@ -160,7 +161,8 @@ std::string logs_report_html(const std::vector<RecordedDrive>& drives, const Clo
 std::string text_about_logs(const std::vector<RecordedDrive>& drives, const ClosedDrives& closed) {
   return "together: " + std::to_string(loops_between_logs(closed)) + " loops between logs, " +
          std::to_string(logs_in_first_frame(closed)) + " of " + std::to_string(drives.size()) +
-         " logs in the frame of " + drives.front().options->log + '\n';
+         " logs in the frame of " + drives.front().options->log +
+         (closed.global ? "; " + text_about(*closed.global) : "") + '\n';
 }
 
 }  // namespace oneac::app

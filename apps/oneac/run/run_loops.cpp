@@ -2,6 +2,7 @@
 
 #include "keyframe_images.h"
 #include "odometry_edges.h"
+#include "run_global.h"
 #include "terminal/interrupt.h"
 #include "terminal/progress_bar.h"
 
@@ -56,9 +57,7 @@ std::vector<LoopKeyframe> loop_keyframes(const std::vector<RecordedDrive>& drive
 
 LoopCamera camera_of(const DriveRecord& record, const RunOptions& options) {
   LoopCamera camera;
-  camera.camera = record.camera;
-  const bool learned = options.front_end.self_calibration.refine != "off";
-  if (learned) camera.camera = record.camera_belief.used;
+  camera.camera = camera_of_loops(record, options);
   camera.R_level_cam = levelling_rotation(record.tilt);
   camera.unused = record.car_mask;
   camera.mask_polygon = options.front_end.features.mask.polygon;
@@ -72,7 +71,9 @@ FoundLoops find_loops(const std::vector<LoopKeyframe>& keyframes,
   const RunOptions& options = *drives.front().options;
   const KeyframeImages images(drives);
   const DriveRecord& first = *drives[keyframes.front().log].record;
-  LoopCloser closer(options.loops, camera_of(first, options),
+  LoopOptions search = options.loops;
+  search.keep_patches = options.run.global_ba;
+  LoopCloser closer(search, camera_of(first, options),
                     [&](std::size_t place) { return images.load(place).image; });
   ProgressBar progress(options.run.progress && !options.run.quiet, "keyframes");
   progress.expect(keyframes.size());
@@ -137,6 +138,8 @@ ClosedDrive drive_of(const ClosedDrives& all, std::size_t begin, std::size_t end
   drive.alone = drives.size() == 1;
   drive.report = all.report;
   drive.note = all.note;
+  drive.global = all.global;
+  if (!all.points.empty()) drive.points = all.points[log];
   drive.frame_mount = drives[drive.frame_of].record->mount();
   for (std::size_t i = begin; i < end; ++i) {
     drive.keyframes.push_back(all.keyframes[i]);
@@ -162,6 +165,11 @@ ClosedDrive drive_of(const ClosedDrives& all, std::size_t begin, std::size_t end
 
 }  // namespace
 
+PinholeCamera camera_of_loops(const DriveRecord& record, const RunOptions& options) {
+  const bool learned = options.front_end.self_calibration.refine != "off";
+  return learned ? record.camera_belief.used : record.camera;
+}
+
 Trajectory ClosedDrive::camera_trajectory(const DriveRecord& record) const {
   Trajectory trajectory = record.camera_trajectory();
   trajectory.poses = frames;
@@ -177,6 +185,7 @@ Trajectory ClosedDrive::vehicle_trajectory(const DriveRecord& record) const {
 
 std::vector<Keyframe> ClosedDrive::moved_keyframes(const DriveRecord& record) const {
   std::vector<Keyframe> moved = record.keyframes;
+  std::size_t at = 0;
   for (std::size_t i = 0; i < moved.size(); ++i) {
     const Eigen::Isometry3f move =
         (graph.T_first_cam[i] * moved[i].T_first_cam.inverse()).cast<float>();
@@ -184,6 +193,9 @@ std::vector<Keyframe> ClosedDrive::moved_keyframes(const DriveRecord& record) co
     for (MapPoint& point : moved[i].points) {
       point.position = move * point.position;
       point.normal = move.linear() * point.normal;
+      const bool adjusted = at < points.size() && points[at];
+      if (adjusted) point.position = points[at]->cast<float>();
+      ++at;
     }
   }
   return moved;
@@ -203,6 +215,7 @@ ClosedDrives close_loops(const std::vector<RecordedDrive>& drives) {
   closed.report = found.report;
   closed.graph = optimise_pose_graph(closed.keyframes, found.loops);
   closed.report.contradicted += found.loops.size() - closed.graph.loops.size();
+  if (drives.front().options->run.global_ba) adjust_closed_drives(drives, closed);
   std::size_t begin = 0;
   for (std::size_t log = 0; log < drives.size(); ++log) {
     const std::size_t end = begin + drives[log].record->keyframes.size();
@@ -264,6 +277,13 @@ void write_closed_drives(const std::vector<RecordedDrive>& drives, const ClosedD
                         format_simple_map(together, first.mount(), first.camera));
 }
 
+std::string text_about(const GlobalReport& global) {
+  if (!global.adjusted) return "no global adjustment: " + global.reason;
+  return "global adjustment of " + std::to_string(global.observations) + " observations of " +
+         std::to_string(global.patches) + " patches, " + significant_text(global.rms_before_px, 3) +
+         " -> " + significant_text(global.rms_after_px, 3) + " px";
+}
+
 std::string text_about(const ClosedDrive& closed, const std::optional<Evaluation>& after) {
   std::string text =
       std::to_string(closed.graph.loops.size()) + " loops of " +
@@ -280,6 +300,7 @@ std::string text_about(const ClosedDrive& closed, const std::optional<Evaluation
   if (after && after->trajectory && moved) {
     text += ", APE after them " + significant_text(after->trajectory->ape.rmse, 3) + " m (RMS)";
   }
+  if (closed.global) text += "; " + text_about(*closed.global);
   return text + '\n';
 }
 

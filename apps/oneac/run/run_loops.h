@@ -5,6 +5,7 @@
 
 #include "oneac/evaluation/evaluate.h"
 #include "oneac/evaluation/trajectory_io.h"
+#include "oneac/loops/global_adjustment.h"
 #include "oneac/loops/loop_closer.h"
 #include "oneac/loops/pose_graph.h"
 
@@ -26,6 +27,9 @@ struct ClosedDrive {
   std::size_t log = 0, frame_of = 0;  ///< which of the logs, and whose first camera the frame is
   std::size_t loops_to_others = 0;    ///< loops that end in another log
   bool alone = true;                  ///< the only log
+  std::optional<GlobalReport> global;  ///< of all logs; empty when it was not asked for
+  /// Of the record's map points, in their order, where the global adjustment has put them.
+  std::vector<std::optional<Eigen::Vector3d>> points;
 
   /// The record's trajectories with the closed poses.
   [[nodiscard]] Trajectory camera_trajectory(const DriveRecord& record) const;
@@ -44,11 +48,16 @@ struct RecordedDrive {
 struct ClosedDrives {
   std::vector<LoopKeyframe> keyframes;  ///< of all, one log after the other
   LoopReport report;
-  ClosedGraph graph;                ///< of all
-  bool searched = false;            ///< to the end
-  std::vector<ClosedDrive> drives;  ///< each for itself, in the frame that it was joined to
-  std::string note;                 ///< one line when the images could not be read again, else ""
+  ClosedGraph graph;                   ///< of all
+  bool searched = false;               ///< to the end
+  std::vector<ClosedDrive> drives;     ///< each for itself, in the frame that it was joined to
+  std::optional<GlobalReport> global;  ///< of the global adjustment, where it was asked for
+  std::vector<std::vector<std::optional<Eigen::Vector3d>>> points;  ///< per log, see ClosedDrive
+  std::string note;  ///< one line when the images could not be read again, else ""
 };
+
+/// The camera in which images are compared: as the drive has learned it.
+[[nodiscard]] PinholeCamera camera_of_loops(const DriveRecord& record, const RunOptions& options);
 
 /// Reads the keyframes' images of the logs once more, finds loops in each and between them, and
 /// closes the drives by them. What cannot be read again, or was interrupted, ends without loops.
@@ -64,6 +73,9 @@ void write_closed_drive(const DriveRecord& record, const ClosedDrive& closed,
 /// first; each whole or not at all.
 void write_closed_drives(const std::vector<RecordedDrive>& drives, const ClosedDrives& closed,
                          const std::filesystem::path& folder);
+
+/// How the global adjustment came out, in a few words.
+[[nodiscard]] std::string text_about(const GlobalReport& global);
 
 /// The line about loops that `oneac run` prints, with the APE after them.
 /// @param after  of the closed trajectory; empty without a reference

@@ -42,6 +42,8 @@ template <class Visitor>
 void describe(Visitor&& visit, RunParameters& o) {
   describe_results(visit, o);
   visit("loops", o.loops, "bool", "close loops, and write what comes of it beside the rest");
+  visit("global_ba", o.global_ba, "bool",
+        "with loops: adjust keyframes and patches of the closed drive together");
   visit("threads", o.threads, "count", "images prepared at once; changes no result");
   visit("progress", o.progress, "bool", "progress bar on a terminal");
   visit("quiet", o.quiet, "bool", "no notes and warnings");
@@ -74,6 +76,7 @@ template <class Visitor>
 void describe(Visitor&& visit, ResultParameters& o) {
   describe_results(visit, o.run);
   if (o.run.loops) visit("loops", o.run.loops, "bool", "loops were looked for");
+  if (o.run.global_ba) visit("global_ba", o.run.global_ba, "bool", "and the whole adjusted");
 }
 
 }  // namespace
@@ -115,6 +118,7 @@ ParameterTable RunOptions::table() {
   table.add("source", source);
   table.add("front_end", front_end);
   table.add("loops", loops);
+  table.add("global_ba", global_ba);
   table.add("run", run);
   return table;
 }
@@ -125,6 +129,7 @@ std::string RunOptions::result_parameters() {
   table.add("source", source);
   table.add("front_end", front_end);
   if (run.loops) table.add("loops", loops);
+  if (run.global_ba) table.add("global_ba", global_ba);
   table.add("run", results);
   return table.to_yaml(true);
 }
@@ -135,6 +140,7 @@ void RunOptions::validate() {
     table().check_bounds();
     front_end.validate();
     loops.validate();
+    global_ba.validate();
     if (run.threads < 1) {
       throw std::invalid_argument("run.threads = " + std::to_string(run.threads) +
                                   ", must be at least 1");
@@ -142,6 +148,9 @@ void RunOptions::validate() {
   } catch (const std::invalid_argument& error) {
     throw InputError("parameters", with_full_key(error.what(), table()),
                      "correct it in --params or --set");
+  }
+  if (run.global_ba && !run.loops) {
+    throw InputError("--global-ba", "adjusts a drive that loops have closed", "add --loops");
   }
 }
 

@@ -2,6 +2,7 @@
 
 #include "oneac/base/parameter_table.h"
 #include "oneac/frontend/front_end_options.h"
+#include "oneac/loops/global_adjustment.h"
 #include "oneac/loops/loop_options.h"
 #include "oneac/rawlog/rawlog_source.h"
 
@@ -38,6 +39,7 @@ struct RunParameters {
   int seed = 0;           ///< for methods that draw random numbers; the one-AC consensus does not
   bool georeference = false;  ///< the way in the frame of the GPS, too
   bool loops = false;         ///< look for places seen again and close the drive by them
+  bool global_ba = false;     ///< then adjust keyframes and patches of the closed drive together
   int threads = 2;            ///< images prepared at once
   bool progress = true;
   bool quiet = false;
@@ -50,6 +52,7 @@ struct RunOptions {
   SourceParameters source;
   FrontEndOptions front_end;
   LoopOptions loops;
+  GlobalOptions global_ba;
   RunParameters run;
   std::optional<PinholeCamera> camera_model;  ///< instead of source.calibration; no parameter
 

@@ -113,6 +113,32 @@ void add_curves(HtmlPage& page, const DriveRecord& record, const RunEvaluation& 
   page.figures(svgs);
 }
 
+void add_global(HtmlPage& page, const RunEvaluation& evaluation, const GlobalReport& global) {
+  page.heading("Global bundle adjustment");
+  if (!global.adjusted) {
+    page.paragraph("It was asked for and has changed nothing: " + global.reason + ".");
+    return;
+  }
+  page.paragraph("After the loops, all keyframes and " + std::to_string(global.patches) +
+                 " patches that they saw were adjusted together; the trajectory after loops is the "
+                 "one after this.");
+  HtmlPage::Rows rows = {
+      {"reprojection, RMS before [px]", significant_text(global.rms_before_px, 3)},
+      {"reprojection, RMS after [px]", significant_text(global.rms_after_px, 3)},
+      {"iterations", std::to_string(global.iterations)},
+      {"observations", std::to_string(global.observations)},
+      {"rejected by the solution", std::to_string(global.rejected)},
+      {"left out, affinity inconsistent", std::to_string(global.inconsistent)},
+      {"loops that entered as images", std::to_string(global.loops)}};
+  const auto add_ape = [&](const char* name, const std::optional<Evaluation>& of) {
+    if (of && of->trajectory)
+      rows.emplace_back(name, significant_text(of->trajectory->ape.rmse, 3));
+  };
+  add_ape("APE of the odometry, RMS [m]", evaluation.against_poses);
+  add_ape("APE after loops and adjustment, RMS [m]", evaluation.closed_against_poses);
+  page.table("of the adjustment", rows);
+}
+
 void add_loops(HtmlPage& page, const DriveRecord& record, const RunEvaluation& evaluation,
                const ClosedDrive& closed) {
   page.heading("Loops");
@@ -136,6 +162,7 @@ void add_loops(HtmlPage& page, const DriveRecord& record, const RunEvaluation& e
                        "it was closed by them (trajectory_optimised_camera.tum). A line per loop "
                        "joins its keyframes where they were before.");
   if (count > 0) page.figures({plot_svg(plan_of_loops(record, evaluation, closed))});
+  if (closed.global) add_global(page, evaluation, *closed.global);
 }
 
 void add_pictures(HtmlPage& page, const DriveRecord& record, const RunEvaluation& evaluation,

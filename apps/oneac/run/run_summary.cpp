@@ -226,6 +226,7 @@ Json loops_json(const ClosedDrive& closed, const RunEvaluation& evaluation) {
                  {"log", closed.log + 1},
                  {"frame_of_log", closed.frame_of + 1}});
   }
+  if (closed.global) json["global_ba"] = global_json(*closed.global);
   const auto& after = evaluation.closed_against_poses;
   if (!after || !after->trajectory || !evaluation.against_poses->trajectory) return json;
   json["ape_before_m"] = evaluation.against_poses->trajectory->ape.rmse;
@@ -234,6 +235,22 @@ Json loops_json(const ClosedDrive& closed, const RunEvaluation& evaluation) {
 }
 
 }  // namespace
+
+nlohmann::ordered_json global_json(const GlobalReport& global) {
+  Json json = {{"adjusted", global.adjusted}};
+  if (!global.adjusted) json["reason"] = global.reason;
+  json.update({{"iterations", global.iterations},
+               {"patches", global.patches},
+               {"patches_of_loops", global.shared},
+               {"patches_passed_over", global.passed_over},
+               {"observations", global.observations},
+               {"observations_not_affine_consistent", global.inconsistent},
+               {"observations_rejected", global.rejected},
+               {"loops_as_images", global.loops},
+               {"reprojection_rms_before_px", global.rms_before_px},
+               {"reprojection_rms_after_px", global.rms_after_px}});
+  return json;
+}
 
 RunEvaluation evaluate_record(const DriveRecord& record, const RunOptions& options,
                               const ClosedDrive* closed) {

@@ -7,6 +7,8 @@
 #include "oneac/evaluation/evaluate.h"
 #include "oneac/evaluation/georeference.h"
 
+#include <nlohmann/json_fwd.hpp>
+
 #include <optional>
 #include <string>
 
@@ -34,6 +36,9 @@ struct RunEvaluation {
 /// `poses.txt`), and with the log's GPS. @throws InputError when --reference cannot be read
 [[nodiscard]] RunEvaluation evaluate_record(const DriveRecord& record, const RunOptions& options,
                                             const ClosedDrive* closed = nullptr);
+
+/// `global_ba` of summary.json.
+[[nodiscard]] nlohmann::ordered_json global_json(const GlobalReport& global);
 
 /// summary.json; with `loops` where they were looked for. Only the object "timing" may differ
 /// between runs of the same input and parameters.

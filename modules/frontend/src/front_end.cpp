@@ -206,6 +206,10 @@ TiltBelief FrontEnd::tilt_belief() const {
   return odometry_->attitude().mounting();
 }
 
+SettledTracks FrontEnd::take_tracks() {
+  return odometry_->take_tracks();
+}
+
 Settled FrontEnd::finish() {
   learner_->finish();
   if (started_) odometry_->blame_camera(learner_->fault());

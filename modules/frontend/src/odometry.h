@@ -30,6 +30,7 @@ class Odometry {
                                     const RoadPair& road);
   /// Settles what is left; the next step begins a new segment at the last frame.
   [[nodiscard]] Settled finish() { return map_.finish(); }
+  [[nodiscard]] SettledTracks take_tracks() { return map_.take_tracks(); }
 
   /// Why the camera cannot be as given, or nothing: until told otherwise.
   void blame_camera(const std::optional<std::string>& fault) { setup_.blame_camera(fault); }

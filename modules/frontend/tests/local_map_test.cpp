@@ -7,6 +7,7 @@
 
 #include <cmath>
 #include <cstdint>
+#include <map>
 #include <vector>
 
 namespace oneac {
@@ -54,8 +55,8 @@ class Corridor {
 };
 
 /// Drives with a keyframe at every metre.
-LocalMap driven_map(const Corridor& corridor, int metres) {
-  LocalMap map(WindowOptions{}, kFocal);
+LocalMap driven_map(const Corridor& corridor, int metres, const WindowOptions& options = {}) {
+  LocalMap map(options, kFocal);
   map.start(0, Corridor::pose_at(0.0));
   for (int z = 0; z < metres; ++z) {
     map.extend(corridor.step(z, z + 1.0), {});
@@ -166,6 +167,42 @@ TEST(LocalMap, GivesItsPointsAwayWithTheirNormals) {
   EXPECT_GT(on_wall, points.size() * 9 / 10);
   EXPECT_GT(with_normal, points.size() / 2);
   EXPECT_GT(across, with_normal * 9 / 10);
+}
+
+TEST(LocalMap, GivesTheSightingsOfItsLandmarksAwayWhereTheyAreAskedFor) {
+  const Corridor corridor(300);
+  WindowOptions options;
+  options.keep_sightings = true;
+  LocalMap map = driven_map(corridor, 12, options);
+  std::size_t points = 0;
+  const SettledTracks before = map.take_tracks();
+  while (!map.keyframes().empty()) points += map.retire_oldest().size();
+  const SettledTracks tracks = map.take_tracks();
+  EXPECT_EQ(tracks.of_points.size(), points);
+  EXPECT_TRUE(map.take_tracks().sightings.empty());
+  std::map<std::uint64_t, std::vector<SettledSighting>> by_track;
+  for (const SettledTracks* some : {&before, &tracks}) {
+    for (const SettledSighting& seen : some->sightings) by_track[seen.track].push_back(seen);
+  }
+  for (const auto& [track, seen] : by_track) {
+    EXPECT_GE(seen.size(), 2U) << track;
+    for (std::size_t i = 1; i < seen.size(); ++i) {
+      EXPECT_GT(seen[i].keyframe, seen[i - 1].keyframe) << track;
+      // Along a corridor everything moves away from the middle.
+      EXPECT_GT(seen[i].u.norm(), seen[i - 1].u.norm()) << track;
+    }
+    EXPECT_LT(seen.back().u.norm(), 2.0 * kFocal);
+    EXPECT_GT(seen.back().u.norm(), 1.0);
+  }
+  for (const std::uint64_t track : tracks.of_points) EXPECT_EQ(by_track.count(track), 1U);
+  EXPECT_GT(by_track.size(), points / 2);
+}
+
+TEST(LocalMap, KeepsNoSightingsThatNobodyAskedFor) {
+  LocalMap map = driven_map(Corridor(300), 12);
+  while (!map.keyframes().empty()) static_cast<void>(map.retire_oldest());
+  EXPECT_TRUE(map.take_tracks().sightings.empty());
+  EXPECT_TRUE(map.take_tracks().of_points.empty());
 }
 
 /// The step with the tracks below `number` only.

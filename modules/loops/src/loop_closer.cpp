@@ -132,7 +132,7 @@ class LoopCloser::Impl {
   }
 
   [[nodiscard]] View view(std::size_t keyframe) const {
-    return {features_[keyframe].whole(), images_(keyframe)};
+    return {keyframe, features_[keyframe].whole(), images_(keyframe)};
   }
 
   /// The nearest keyframe in a direction from which depths show; none at an end of the part.

@@ -114,6 +114,15 @@ std::vector<bool> affine_consistent(const std::vector<AffineCorrespondence>& acs
   return refined.usable() ? refined.affine_consistent : found.inliers;
 }
 
+/// Correspondences with a landmark that obeys the pose.
+std::set<std::size_t> inliers_of(const LandmarkPose& pose, const std::vector<std::size_t>& acs) {
+  std::set<std::size_t> inliers;
+  for (std::size_t i = 0; i < acs.size(); ++i) {
+    if (pose.inliers[i]) inliers.insert(acs[i]);
+  }
+  return inliers;
+}
+
 double largest_sigma(const Eigen::Matrix3d& covariance) {
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(covariance, Eigen::EigenvaluesOnly);
   return std::sqrt(std::max(solver.eigenvalues().maxCoeff(), 0.0));
@@ -142,9 +151,13 @@ void Verification::add_depths(const View& view, const View& other, const Relativ
        pairs_.match(view.features, other.features, view.image.view(), other.image.view())) {
     const auto fit = fit_depth(normalise(pair, camera_, camera_), T_2_1, noise);
     if (!fit || fit->misfit > kGate * noise || fit->inverse_depth < -kGate * fit->sigma) continue;
-    const FeatureDepth measured{fit->inverse_depth, fit->sigma};
+    const FeatureDepth measured{fit->inverse_depth, fit->sigma, {}};
     const auto [at, fresh] = depths.try_emplace(key_of(pair.x1), measured);
-    if (!fresh && !join(*fit, at->second)) depths.erase(at);
+    if (!fresh && !join(*fit, at->second)) {
+      depths.erase(at);
+    } else if (options_.keep_patches) {
+      at->second.sightings.push_back(sighting(other.keyframe, pair, kNeighbourNoise_px));
+    }
   }
 }
 
@@ -176,18 +189,57 @@ std::optional<LoopConstraint> Verification::verify(const View& first, const Feat
     if (other.usable && (!best.usable || other.cost < best.cost)) best = std::move(other);
   }
   auto loop = accepted(best, sights.acs);
-  if (loop) loop->acs = pairs.size();
+  if (!loop) return loop;
+  loop->acs = pairs.size();
+  if (!options_.keep_patches) return loop;
+  for (const std::size_t i : inliers_of(best, sights.acs)) {
+    loop->patches.push_back(patch_of(pairs[i], first, depths1, second, depths2));
+  }
   return loop;
+}
+
+PatchSighting Verification::sighting(std::size_t keyframe, const Correspondence& pair,
+                                     double noise_px) const {
+  const AffineCorrespondence ac = normalise(pair, camera_, camera_);
+  PatchSighting seen;
+  seen.keyframe = static_cast<std::uint32_t>(keyframe);
+  seen.point_sigma = static_cast<float>(noise_px / camera_.focal_px());
+  seen.affine_sigma = static_cast<float>(pair.affine_sigma);
+  seen.x = ac.x2.cast<float>();
+  seen.A = ac.A.cast<float>();
+  return seen;
+}
+
+SharedPatch Verification::patch_of(const Correspondence& pair, const View& first,
+                                   const FeatureDepths& depths1, const View& second,
+                                   const FeatureDepths& depths2) const {
+  Correspondence itself;
+  itself.x1 = itself.x2 = pair.x1;
+  itself.A.setIdentity();
+  SharedPatch patch{sighting(first.keyframe, itself, kNeighbourNoise_px)};
+  if (const auto at = depths1.find(key_of(pair.x1)); at != depths1.end()) {
+    patch.insert(patch.end(), at->second.sightings.begin(), at->second.sightings.end());
+  }
+  patch.push_back(sighting(second.keyframe, pair, options_.noise_px));
+  const auto at = depths2.find(key_of(pair.x2 - pair.moved));
+  if (at == depths2.end()) return patch;
+  // The second's own feature lies beside where the first's was found; the affinity leads over.
+  const Eigen::Vector2d x2 = camera_.normalise(pair.x2);
+  const Eigen::Vector2f beside = (x2 - camera_.normalise(pair.x2 - pair.moved)).cast<float>();
+  const Eigen::Matrix2f A = normalise(pair, camera_, camera_).A.cast<float>();
+  for (PatchSighting seen : at->second.sightings) {
+    seen.x += seen.A * beside;
+    seen.A *= A;
+    seen.point_sigma = static_cast<float>(options_.noise_px / camera_.focal_px());
+    patch.push_back(seen);
+  }
+  return patch;
 }
 
 std::optional<LoopConstraint> Verification::accepted(const LandmarkPose& pose,
                                                      const std::vector<std::size_t>& acs) const {
   if (!pose.usable) return std::nullopt;
-  std::set<std::size_t> with, inliers;
-  for (std::size_t i = 0; i < acs.size(); ++i) {
-    with.insert(acs[i]);
-    if (pose.inliers[i]) inliers.insert(acs[i]);
-  }
+  const std::set<std::size_t> with(acs.begin(), acs.end()), inliers = inliers_of(pose, acs);
   const auto side = static_cast<std::size_t>(options_.min_side_inliers);
   if (inliers.size() < static_cast<std::size_t>(options_.min_inliers) || pose.first_side < side ||
       pose.second_side < side ||

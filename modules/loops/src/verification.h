@@ -17,6 +17,7 @@ namespace oneac::internal {
 
 /// What one keyframe shows, for as long as a pair is compared.
 struct View {
+  std::size_t keyframe = 0;
   AffineFeatures features;
   GreyImage image;
 };
@@ -25,6 +26,8 @@ struct View {
 struct FeatureDepth {
   double inverse_depth = 0.0;  ///< [1/m]
   double sigma = 0.0;          ///< [1/m]
+  /// Where neighbours see it, A = ∂x/∂(the feature's); when patches are kept.
+  SharedPatch sightings;
 };
 
 /// Depths by the centres of features [px], to the bit.
@@ -51,6 +54,14 @@ class Verification {
  private:
   [[nodiscard]] std::optional<LoopConstraint> accepted(const LandmarkPose& pose,
                                                        const std::vector<std::size_t>& acs) const;
+
+  /// Where a view shows a point [px], the other end of a correspondence.
+  [[nodiscard]] PatchSighting sighting(std::size_t keyframe, const Correspondence& pair,
+                                       double noise_px) const;
+  /// The feature of the first view in both and in their neighbours.
+  [[nodiscard]] SharedPatch patch_of(const Correspondence& pair, const View& first,
+                                     const FeatureDepths& depths1, const View& second,
+                                     const FeatureDepths& depths2) const;
 
   LoopOptions options_;
   PinholeCamera camera_;

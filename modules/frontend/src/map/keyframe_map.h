@@ -74,6 +74,10 @@ class KeyframeMap {
   void forget() { lost_ = true; }
   /// What still waits, at the end of a drive. A frame that comes after it begins a new segment.
   [[nodiscard]] Settled finish();
+  /// Tracks that have settled since the last call, see LocalMap::take_tracks().
+  [[nodiscard]] SettledTracks take_tracks() {
+    return window_ ? window_->take_tracks() : SettledTracks{};
+  }
 
   /// The newest frame, when it became a keyframe.
   [[nodiscard]] std::optional<NewestKeyframe> newest() const {

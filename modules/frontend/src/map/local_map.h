@@ -12,6 +12,7 @@
 #include <cstdint>
 #include <deque>
 #include <optional>
+#include <utility>
 #include <vector>
 
 namespace oneac {
@@ -61,6 +62,9 @@ class LocalMap {
   }
   /// Takes the oldest keyframe out, with the landmarks that no other keyframe sees.
   [[nodiscard]] std::vector<MapPoint> retire_oldest();
+  /// Sightings of landmarks that retire_oldest() has taken out since the last call, and which track
+  /// each of its points was; only with options.keep_sightings.
+  [[nodiscard]] SettledTracks take_tracks() { return std::exchange(settled_, {}); }
 
   /// The newest frame with what it sees, when it is a keyframe.
   [[nodiscard]] std::optional<NewestKeyframe> newest() const;
@@ -82,6 +86,8 @@ class LocalMap {
   [[nodiscard]] MapPoint point_of(const Track& track) const;
   void forget_sightings(std::size_t id, std::vector<MapPoint>& points);
   void move_anchor(Track& track);
+  /// What forget_sightings() is about to take out of a landmark.
+  void keep_sightings(std::uint64_t id, const Track& track, bool leaves);
 
   WindowOptions options_;
   double focal_px_;
@@ -91,6 +97,7 @@ class LocalMap {
   std::size_t tracks_of_last_ = 0;                 ///< alive when the last keyframe was made
   std::deque<WindowKeyframe> window_;
   TrackMap tracks_;
+  SettledTracks settled_;
 };
 
 }  // namespace oneac

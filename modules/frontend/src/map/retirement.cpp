@@ -33,6 +33,7 @@ void LocalMap::forget_sightings(std::size_t id, std::vector<MapPoint>& points) {
       continue;
     }
     const bool leaves = track.seen.size() == (track.alive ? 1U : 2U);
+    if (options_.keep_sightings && track.has_depth) keep_sightings(at->first, track, leaves);
     if (track.has_depth && leaves && is_located(track)) points.push_back(point_of(track));
     if (track.has_depth && !leaves && track.anchor == id) move_anchor(track);
     track.seen.erase(track.seen.begin());
@@ -40,6 +41,23 @@ void LocalMap::forget_sightings(std::size_t id, std::vector<MapPoint>& points) {
     if (track.seen.size() < 2) track.has_depth = track.has_depth && track.alive && !leaves;
     at = !track.alive && track.seen.size() < 2 ? tracks_.erase(at) : std::next(at);
   }
+}
+
+void LocalMap::keep_sightings(std::uint64_t id, const Track& track, bool leaves) {
+  // A dead track leaves as a whole, with its last sighting in a keyframe that stays.
+  const std::size_t count = leaves ? track.seen.size() : 1;
+  for (std::size_t i = 0; i < count; ++i) {
+    const Sighting& seen = track.seen[i];
+    SettledSighting kept;
+    kept.track = id;
+    kept.keyframe = static_cast<std::uint32_t>(seen.keyframe);
+    kept.point_sigma_px = static_cast<float>(seen.point_sigma * focal_px_);
+    kept.affine_sigma = static_cast<float>(seen.affine_sigma);
+    kept.u = (focal_px_ * seen.x).cast<float>();
+    kept.shape = seen.shape.cast<float>();
+    settled_.sightings.push_back(kept);
+  }
+  if (leaves && is_located(track)) settled_.of_points.push_back(id);
 }
 
 void LocalMap::move_anchor(Track& track) {

@@ -84,6 +84,8 @@ class FrontEnd : public mrpt::system::COutputLogger {
   /// Makes everything final that still waits, at the end of a drive. Frames that come after it
   /// begin a new segment, which the next finish() makes final.
   Settled finish();
+  /// Tracks that have settled since the last call, with window.keep_sightings; else nothing.
+  [[nodiscard]] SettledTracks take_tracks();
   /// The camera's way so far, a row per frame: final where settled, and wholly after finish().
   [[nodiscard]] const DriveTrajectory& trajectory() const { return trajectory_; }
 

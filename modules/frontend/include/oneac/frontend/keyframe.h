@@ -42,6 +42,24 @@ struct KeyframeSighting {
   Eigen::Vector2d x = Eigen::Vector2d::Zero();  ///< normalised by the camera in use [-]
 };
 
+/// A track where a keyframe saw it, as it was when that settled. Single precision: a drive has
+/// hundreds a keyframe.
+struct SettledSighting {
+  std::uint64_t track = 0;      ///< the same in every keyframe
+  std::uint32_t keyframe = 0;   ///< Keyframe::id
+  float point_sigma_px = 0.0F;  ///< 1σ of a coordinate; 0 where unknown
+  float affine_sigma = 0.0F;    ///< 1σ of an entry of `shape` [-]; 0 where unknown
+  /// [px] of the focal length in use then, from the principal point.
+  Eigen::Vector2f u = Eigen::Vector2f::Zero();
+  Eigen::Matrix2f shape = Eigen::Matrix2f::Identity();  ///< ∂u/∂(u where the track began)
+};
+
+/// Tracks of a drive that have left its map.
+struct SettledTracks {
+  std::vector<SettledSighting> sightings;  ///< of landmarks; those of a track in order
+  std::vector<std::uint64_t> of_points;    ///< track of every MapPoint, in the order of settling
+};
+
 /// The newest keyframe as it is before others adjust it: what a calibration needs of it.
 struct NewestKeyframe {
   RelativePose T_cam_map;                   ///< lengths of the map

@@ -20,6 +20,7 @@ struct WindowOptions {
   int max_landmarks = 1500;  ///< in one adjustment, longest tracks first: bounds the time, above
                              ///< what the window of a usual drive holds
   WindowRefineOptions refine;
+  bool keep_sightings = false;  ///< SettledTracks are collected; no key: the program's --global-ba
 
   /// @throws std::invalid_argument naming field, value and bound
   void validate() const;

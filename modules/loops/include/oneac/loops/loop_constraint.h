@@ -1,10 +1,12 @@
 #pragma once
 
 #include "oneac/geometry/relative_pose.h"
+#include "oneac/loops/shared_patch.h"
 
 #include <Eigen/Core>
 
 #include <cstddef>
+#include <vector>
 
 namespace oneac {
 
@@ -17,6 +19,9 @@ struct LoopConstraint {
   double sigma_length = 0.0;  ///< 1σ of |t| [m]; of the position across where t is nearly zero
   std::size_t inliers = 0;    ///< correspondences with a landmark that obey the motion
   std::size_t acs = 0;        ///< affine correspondences of the two images
+  /// What the inliers are in the keyframes of both ends, `first` before its neighbours, `second`
+  /// and its own; when they were asked for.
+  std::vector<SharedPatch> patches;
 };
 
 /// Information of T_1_2 as g2o wants it: translation, then the vector part of the quaternion, of a

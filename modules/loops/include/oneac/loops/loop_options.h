@@ -15,8 +15,9 @@ struct LoopOptions {
   double min_share = 0.5;    ///< [-] of correspondences with landmarks: what else is there moves
   double max_position_m = 0.2;    ///< [m] 1σ of the position: five of them are a metre
   double max_rotation_deg = 0.5;  ///< [deg] 1σ: six of them are three degrees
-  double noise_px = 0.5;  ///< [px] 1σ of an aligned point between lights, patches and lanes
-  int min_support = 2;    ///< other loops near it that say the same
+  double noise_px = 0.5;      ///< [px] 1σ of an aligned point between lights, patches and lanes
+  int min_support = 2;        ///< other loops near it that say the same
+  bool keep_patches = false;  ///< LoopConstraint::patches are filled; no key: of --global-ba
 
   /// @throws std::invalid_argument naming field, value and bound
   void validate() const;
