@@ -84,6 +84,43 @@ TEST_F(CalibrateVerb, GyroscopeAndCourseAreSetAgainstTheTurnsByImages) {
   EXPECT_NE(result.out.find("bends, gyroscope, GPS course)"), std::string::npos) << result.out;
 }
 
+TEST_F(CalibrateVerb, HeightIsToldByWhatTellsMetresAndRunTakesIt) {
+  const std::string log = simulate({"--frames", "60", "--silent-mount", "--camera-height", "2.0",
+                                    "--route", "straight", "--odometry"});
+  const ProgramResult result =
+      run_program({ONEAC_PROGRAM, "calibrate", log, "-o", folder("camera.ini")});
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_NE(result.out.find("GPS speed: "), std::string::npos) << result.out;
+  EXPECT_NE(result.out.find("wheels: "), std::string::npos) << result.out;
+  const std::string said = "camera is ";
+  const auto at = result.out.find(said + "2.0");
+  ASSERT_NE(at, std::string::npos) << result.out;
+  EXPECT_NEAR(std::stod(result.out.substr(at + said.size())), 2.0, 0.06) << result.out;
+  const ProgramResult run = run_program({ONEAC_PROGRAM, "run", log, "-o", folder("out"), "--count",
+                                         "5", "--calibration", folder("camera.ini"), "--params",
+                                         folder("camera_height.yaml"), "--no-progress"});
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  const auto summary = nlohmann::json::parse(text_of(folder("out") + "/summary.json"));
+  EXPECT_NEAR(summary["camera_height_m"].get<double>(), 2.0, 0.06);
+}
+
+TEST_F(CalibrateVerb, HeightIsNotWrittenWhereNothingTellsMetres) {
+  const std::string log = simulate({"--frames", "12", "--route", "straight"});
+  const std::string file = folder("camera_height.yaml");
+  std::ofstream(file) << "# mine\n";
+  const std::vector<std::string> command = {ONEAC_PROGRAM, "calibrate", log, "-o",
+                                            folder("camera.ini")};
+  const ProgramResult refused = run_program(command);
+  EXPECT_EQ(refused.exit_code, 2);
+  EXPECT_NE(refused.err.find("camera_height.yaml"), std::string::npos) << refused.err;
+  EXPECT_EQ(text_of(file), "# mine\n");
+  std::ofstream(file) << "# made by oneac calibrate of another drive\n";
+  const ProgramResult result = run_program(command);
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_NE(result.out.find("height of the camera not told"), std::string::npos) << result.out;
+  EXPECT_FALSE(std::filesystem::exists(file)) << "of another drive";
+}
+
 TEST_F(CalibrateVerb, DoesNotOverwriteTheReportOfARun) {
   const std::string log = simulate({"--frames", "8"});
   ASSERT_EQ(run_program({ONEAC_PROGRAM, "run", log, "-o", folder("out")}).exit_code, 0);

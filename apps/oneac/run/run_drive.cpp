@@ -190,6 +190,7 @@ class Drive {
   }
 
   void feed_wheels(const std::vector<SpeedReading>& speeds) {
+    record_.wheels.insert(record_.wheels.end(), speeds.begin(), speeds.end());
     if (options_.front_end.scale.source != "wheels") return;
     for (const SpeedReading& told : speeds) {
       front_end_.add_speed(told.time_s, told.speed, told.sigma);
