@@ -85,7 +85,7 @@ TEST_F(CalibrateVerb, GyroscopeAndCourseAreSetAgainstTheTurnsByImages) {
 }
 
 TEST_F(CalibrateVerb, HeightIsToldByWhatTellsMetresAndRunTakesIt) {
-  const std::string log = simulate({"--frames", "60", "--silent-mount", "--camera-height", "2.0",
+  const std::string log = simulate({"--frames", "110", "--silent-mount", "--camera-height", "2.0",
                                     "--route", "straight", "--odometry"});
   const ProgramResult result =
       run_program({ONEAC_PROGRAM, "calibrate", log, "-o", folder("camera.ini")});

@@ -4,6 +4,7 @@
 
 #include "oneac/base/error.h"
 #include "oneac/base/number_text.h"
+#include "oneac/calibration/focal_evidence.h"
 #include "oneac/geometry/angles.h"
 #include "oneac/geometry/lens.h"
 
@@ -114,10 +115,14 @@ void measure(const Pass& pass, const PinholeCamera& tracked_with, double min_tur
     calibration.windows.push_back(window);
   }
   calibration.turns = turn_evidence(pass.drive);
+  std::vector<FocalEvidence> told;
   for (const TurnEvidence& turn : calibration.turns) {
-    belief.add_focal(start[kFocal] + turn.measured.log_focal, turn.measured.sigma);
+    told.push_back({turn.sensor, start[kFocal] + turn.measured.log_focal, turn.measured.sigma});
   }
-  calibration.estimate = belief.estimate();
+  JointEstimate joint = joint_estimate(belief, told);
+  calibration.estimate = std::move(joint.estimate);
+  calibration.agreeing = std::move(joint.agreeing);
+  calibration.contradicting = std::move(joint.contradicting);
 }
 
 /// The same drive with its lengths by the road, whatever height of the camera is assumed.
@@ -162,7 +167,7 @@ double Calibration::focal_sigma() const {
 }
 
 bool Calibration::knows_focal() const {
-  const bool confirmed = bends.size() >= IntrinsicsBelief::kFewestWindows || !turns.empty();
+  const bool confirmed = bends.size() >= IntrinsicsBelief::kFewestWindows || !agreeing.empty();
   return confirmed && estimate.sigma(kFocal) < 0.5 * prior.focal;
 }
 

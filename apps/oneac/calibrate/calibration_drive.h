@@ -8,6 +8,7 @@
 #include "oneac/calibration/intrinsics_belief.h"
 
 #include <optional>
+#include <string>
 #include <vector>
 
 namespace oneac::app {
@@ -31,6 +32,8 @@ struct Calibration {
   std::vector<IntrinsicsMeasurement> bends;  ///< of the last pass
   std::vector<CalibrationWindow> windows;    ///< the same
   std::vector<TurnEvidence> turns;           ///< by other sensors, of the last pass
+  std::vector<std::string> agreeing;         ///< of these sensors, those that count
+  std::vector<std::string> contradicting;    ///< and those that contradict bends or each other
   double largest_turn = 0.0;                 ///< [rad] of any window
   double given_sigma = 0.0;  ///< relative 1σ of f before: a guess, or taken for granted
   int passes = 0;

@@ -174,25 +174,30 @@ std::string sensors_text(const CameraHeight& height) {
 std::vector<std::string> turn_lines(const Calibration& c) {
   std::vector<std::string> lines;
   for (const TurnEvidence& turn : c.turns) lines.push_back(text_of(turn, c.drive.raw_camera.fx));
+  for (const std::string& sensor : c.contradicting) {
+    lines.push_back(sensor +
+                    " contradicts what else tells the focal length and is not used; "
+                    "1 sigma is wider for it");
+  }
   return lines;
 }
 
 }  // namespace
 
 std::string verdict_of(const Calibration& c) {
-  if (c.bends.empty() && c.turns.empty()) {
+  if (c.bends.empty() && c.agreeing.empty()) {
     return "this drive cannot tell the focal length: it turns by " +
            fixed_text(c.largest_turn / kDegree, 1) +
            " degrees within twelve keyframes at most; drive some bends of 30 degrees and more, "
            "near houses or parked cars";
   }
-  if (c.bends.size() < IntrinsicsBelief::kFewestWindows && c.turns.empty()) {
+  if (c.bends.size() < IntrinsicsBelief::kFewestWindows && c.agreeing.empty()) {
     return "this drive has one bend only and nothing confirms what it says of the focal length; "
            "drive some bends of 30 degrees and more, near houses or parked cars";
   }
   const double sigma = c.estimate.sigma(kFocal);
   std::string bends = std::to_string(c.bends.size()) + (c.bends.size() == 1 ? " bend" : " bends");
-  for (const TurnEvidence& turn : c.turns) bends += ", " + turn.sensor;
+  for (const std::string& sensor : c.agreeing) bends += ", " + sensor;
   if (!c.knows_focal()) {
     return "this drive hardly tells the focal length (" + percent(sigma) + " by " + bends +
            "); drive some bends of 30 degrees and more, near houses or parked cars";
