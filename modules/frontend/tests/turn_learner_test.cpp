@@ -29,16 +29,22 @@ struct Blocks {
   double focal_too_long = 1.0;
   double gyroscope_scale = 1.0;
   double gyroscope_bias = 0.004;
+  double gyroscope_late_s = 0.0;
   double course_late_s = 0.3;
+  double course_swing = 0.0;  ///< [rad] to and fro, whatever the vehicle does
 
   template <class Learner>
   void tell_sensors(Learner& learner) const {
     for (int i = 0; i <= 12000; ++i) {
       const double t = 0.01 * i;
-      const double rate = (heading_at(t) - heading_at(t - 0.01)) / 0.01;
+      const double then = t - gyroscope_late_s;
+      const double rate = (heading_at(then) - heading_at(then - 0.01)) / 0.01;
       learner.add_yaw_rate(t, gyroscope_scale * rate + gyroscope_bias);
     }
-    for (int t = 0; t <= 120; ++t) learner.add_course(t, -heading_at(t - course_late_s), 8.0);
+    for (int t = 0; t <= 120; ++t) {
+      const double swing = course_swing * std::sin(0.7 * t);
+      learner.add_course(t, -heading_at(t - course_late_s) + swing, 8.0);
+    }
   }
   [[nodiscard]] SettledFrame frame(std::size_t i) const {
     SettledFrame frame;
@@ -87,6 +93,18 @@ TEST(TurnLearner, TurnsSeenByACameraThatHasMovedCountForTheGivenOne) {
   const auto told = learner.evidence();
   ASSERT_EQ(told.size(), 2U);
   EXPECT_NEAR(told.front().log_focal, -std::log(1.05), 0.003);
+}
+
+TEST(TurnLearner, SensorsThatAreLateTellTheSame) {
+  Blocks blocks;
+  blocks.focal_too_long = 1.05;
+  blocks.gyroscope_late_s = 0.4;
+  blocks.course_late_s = 0.9;
+  const auto told = driven(blocks).evidence();
+  ASSERT_EQ(told.size(), 2U);
+  for (const FocalEvidence& one : told) {
+    EXPECT_NEAR(one.log_focal, -std::log(1.05), 0.003) << one.sensor;
+  }
 }
 
 TEST(TurnLearner, SensorsOfAnotherUnitOrSignTellNothing) {
@@ -153,6 +171,17 @@ TEST(CameraLearner, AGyroscopeWhoseScaleIsWrongMovesNothingAndIsNamed) {
   EXPECT_EQ(learner.used().fx, true_camera().fx);
   EXPECT_FALSE(learner.fault());
   EXPECT_GT(learner.belief().focal_sigma, 0.02);
+}
+
+TEST(CameraLearner, ACourseThatIsGarbageMovesNoRightCamera) {
+  for (const double swing : {0.1, 0.5, 1.5}) {
+    Blocks blocks;
+    blocks.course_swing = swing;
+    const CameraLearner learner = learned(blocks, 2, true_camera());
+    EXPECT_EQ(learner.used().fx, true_camera().fx) << swing;
+    EXPECT_FALSE(learner.fault()) << swing;
+    EXPECT_LT(learner.belief().doubt, 0.02) << swing;
+  }
 }
 
 TEST(CameraLearner, AWrongGyroscopeDoesNotProtectAWrongCameraThatBendsAccuse) {
