@@ -72,7 +72,7 @@ TEST_F(CalibrateVerb, SaysThatAStraightRoadCannotTell) {
 }
 
 TEST_F(CalibrateVerb, GyroscopeAndCourseAreSetAgainstTheTurnsByImages) {
-  const std::string log = simulate({"--frames", "180"});
+  const std::string log = simulate({"--frames", "400", "--seed", "3"});
   const ProgramResult result =
       run_program({ONEAC_PROGRAM, "calibrate", log, "-o", folder("camera.ini"), "--passes", "1"});
   ASSERT_EQ(result.exit_code, 0) << result.err;

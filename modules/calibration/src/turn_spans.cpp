@@ -11,6 +11,7 @@ namespace {
 // The vehicle goes straight where it turns by less [rad]: the slip at an antenna a
 // metre ahead of the rear axle is 0.25 degrees at 8 m/s then.
 constexpr double kStraight = 2.0 * kDegree;
+constexpr double kAround = 0.5;     // [s] before and after a moment
 constexpr double kLeastSpan = 2.0;  // [s]
 // [m/s] below, the course of a GPS is noise.
 constexpr double kMoving = 3.0;
@@ -67,9 +68,13 @@ void TurnSpanCutter::add_frame(double time_s, double turn, bool carried) {
   waiting_.push_back(time_s);
 }
 
-bool TurnSpanCutter::is_straight(double time_s) const {
-  const auto turn = images_.turn(time_s - around_, time_s + around_);
-  return turn && std::abs(*turn) < kStraight;
+bool TurnSpanCutter::is_straight(double time_s, const Heading& sensor) const {
+  const auto turn = images_.turn(time_s - kAround, time_s + kAround);
+  if (!turn || !(std::abs(*turn) < kStraight)) return false;
+  if (!(sensor_around_ > 0.0)) return true;
+  const auto before = sensor.turn(time_s - sensor_around_, time_s);
+  const auto after = sensor.turn(time_s, time_s + sensor_around_);
+  return before && after && std::abs(*before) < kStraight && std::abs(*after) < kStraight;
 }
 
 std::size_t TurnSpanCutter::cut(Heading& sensor) {
@@ -77,17 +82,18 @@ std::size_t TurnSpanCutter::cut(Heading& sensor) {
   if (sensor.empty()) waiting_.clear();  // nothing will be known of these
   while (!waiting_.empty()) {
     const double time = waiting_.front();
-    const bool complete = time + around_ < images_.last_time() && time < sensor.last_time();
+    const bool complete =
+        time + kAround < images_.last_time() && time + sensor_around_ < sensor.last_time();
     if (!complete) break;
     waiting_.pop_front();
-    if (!is_straight(time) || (begin_ && time - *begin_ < kLeastSpan)) continue;
+    if (!is_straight(time, sensor) || (begin_ && time - *begin_ < kLeastSpan)) continue;
     if (begin_) {
       const auto seen = images_.turn(*begin_, time), told = sensor.turn(*begin_, time);
       if (seen && told) spans_.push_back({time - *begin_, *seen, *told});
     }
     begin_ = time;
-    images_.forget_before(time - around_);
-    sensor.forget_before(time);
+    images_.forget_before(time - kAround);
+    sensor.forget_before(time - sensor_around_);
   }
   return spans_.size() - before;
 }

@@ -23,7 +23,7 @@ void drive(TurnSpanCutter& cutter, Heading& sensor, double lost_at = -1.0) {
 }
 
 TEST(TurnSpanCutter, ABendIsOneSpanBetweenStraights) {
-  TurnSpanCutter cutter(0.5);
+  TurnSpanCutter cutter = TurnSpanCutter::for_gyroscope();
   Heading sensor(1.0);
   drive(cutter, sensor);
   int bends = 0;
@@ -38,14 +38,14 @@ TEST(TurnSpanCutter, ABendIsOneSpanBetweenStraights) {
 }
 
 TEST(TurnSpanCutter, ABendThatImagesLostIsLeftOut) {
-  TurnSpanCutter cutter(0.5);
+  TurnSpanCutter cutter = TurnSpanCutter::for_gyroscope();
   Heading sensor(1.0);
   drive(cutter, sensor, 9.5);
   for (const TurnSpan& span : cutter.spans()) EXPECT_NEAR(span.by_images, 0.0, 0.05);
 }
 
 TEST(TurnSpanCutter, TheSameSpansWhetherTheSensorComesAtOnceOrAsItGoes) {
-  TurnSpanCutter live(0.5), after(0.5);
+  TurnSpanCutter live = TurnSpanCutter::for_gyroscope(), after = live;
   Heading live_sensor(1.0), after_sensor(1.0);
   drive(live, live_sensor);
   for (int i = 0; i <= 200; ++i) {

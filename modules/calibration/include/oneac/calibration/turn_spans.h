@@ -75,13 +75,11 @@ class CourseHeading {
 /// sensor saw; one that either lost is left out.
 class TurnSpanCutter {
  public:
-  /// @param around  [s] that it goes straight before and after such a moment: more than the
-  ///                sensor's readings are apart and late together
-  explicit TurnSpanCutter(double around) : around_(around) {}
   /// For a gyroscope, which comes ten times a second and more, late by half a second at most.
-  [[nodiscard]] static TurnSpanCutter for_gyroscope() { return TurnSpanCutter(0.5); }
-  /// For a receiver of one fix a second, which filters and is late by as much.
-  [[nodiscard]] static TurnSpanCutter for_course() { return TurnSpanCutter(2.0); }
+  [[nodiscard]] static TurnSpanCutter for_gyroscope() { return TurnSpanCutter(0.0); }
+  /// For a receiver of one fix a second, which may be late by more: its course has to go straight
+  /// from fix to fix, too.
+  [[nodiscard]] static TurnSpanCutter for_course() { return TurnSpanCutter(1.0); }
 
   /// By the images, in order of time.
   /// @param turn     [rad] since the frame before, counter-clockwise
@@ -93,9 +91,11 @@ class TurnSpanCutter {
   [[nodiscard]] const std::vector<TurnSpan>& spans() const { return spans_; }
 
  private:
-  [[nodiscard]] bool is_straight(double time_s) const;
+  /// @param sensor_around  [s] that the sensor goes straight, too, before and after a moment
+  explicit TurnSpanCutter(double sensor_around) : sensor_around_(sensor_around) {}
+  [[nodiscard]] bool is_straight(double time_s, const Heading& sensor) const;
 
-  double around_;
+  double sensor_around_;
   Heading images_{1.0};         // [s] three frames of 3 Hz
   std::deque<double> waiting_;  ///< times of frames
   std::optional<double> begin_;
