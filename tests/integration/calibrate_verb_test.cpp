@@ -104,6 +104,18 @@ TEST_F(CalibrateVerb, HeightIsToldByWhatTellsMetresAndRunTakesIt) {
   EXPECT_NEAR(summary["camera_height_m"].get<double>(), 2.0, 0.06);
 }
 
+TEST_F(CalibrateVerb, HeightThatTheLogContradictsSaysSo) {
+  const std::string log = simulate({"--frames", "110", "--route", "straight"});
+  const std::string wrong = folder("wrong.ini");
+  // Lengths by the road are as the focal length, so the height comes out too small.
+  std::ofstream(wrong) << "[CAMERA_PARAMS]\nresolution = [320 240]\ncx = 159.5\ncy = 119.5\n"
+                          "fx = 310\nfy = 310\ndist = [0 0 0 0 0]\n";
+  const ProgramResult result = run_program(
+      {ONEAC_PROGRAM, "calibrate", log, "-o", folder("camera.ini"), "--calibration", wrong});
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_NE(result.out.find("the log's sensor pose says 1.50 m"), std::string::npos) << result.out;
+}
+
 TEST_F(CalibrateVerb, HeightIsNotWrittenWhereNothingTellsMetres) {
   const std::string log = simulate({"--frames", "12", "--route", "straight"});
   const std::string file = folder("camera_height.yaml");

@@ -212,8 +212,12 @@ std::string height_verdict(const CameraHeight& height) {
     return "height of the camera not told: " + height.reason +
            (sensors.empty() ? "" : " (" + sensors + ")");
   }
+  const std::string log = height.by_log > 0.0
+                              ? "; the log's sensor pose says " + fixed_text(height.by_log, 2) +
+                                    " m: one of both is wrong, check the unit of speeds"
+                              : "";
   return "camera is " + metres_text(height.metres, height.sigma) + " above the road (" + sensors +
-         ")";
+         ")" + log;
 }
 
 std::string height_yaml(const Calibration& c, const std::string& log) {

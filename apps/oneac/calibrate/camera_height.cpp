@@ -140,6 +140,16 @@ std::vector<Sensor> sensors_of(const DriveRecord& drive, const DriveRecord* by_s
   return sensors;
 }
 
+/// [m] of the log's sensor pose, where it is one above the road and contradicts; else 0.
+double contradicting_mount(const DriveRecord& drive, const CameraHeight& height) {
+  constexpr double kLowest = 0.5;         // [m] lower ones count from the vehicle
+  constexpr double kContradiction = 3.0;  // [σ]
+  const double mount = drive.T_vehicle_cam.translation().z();
+  if (!height.is_known() || mount < kLowest) return 0.0;
+  const double apart = std::abs(std::log(mount / height.metres));
+  return apart > kContradiction * height.sigma ? mount : 0.0;
+}
+
 /// Why there is none although sensors told something.
 std::string reason_of(const DriveRecord& drive, const CameraHeight& height, bool agreed) {
   if (!drive.setup_faults.empty()) {
@@ -177,6 +187,7 @@ CameraHeight camera_height_of(const DriveRecord& drive, const DriveRecord* by_st
   }
   const bool known = all && drive.setup_faults.empty() && height.sigma <= kUseful;
   if (known) height.metres = drive.camera_height * all->ratio;
+  height.by_log = contradicting_mount(drive, height);
   if (!known) height.reason = reason_of(drive, height, all.has_value());
   return height;
 }

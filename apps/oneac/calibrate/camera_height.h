@@ -28,6 +28,7 @@ struct CameraHeight {
   double assumed = 0.0;       ///< [m] what ratios of the sensors count from
   double length_sigma = 0.0;  ///< relative 1σ of lengths by it and the camera of the drive
   double sigma = 0.0;         ///< relative 1σ of it, the focal length's included
+  double by_log = 0.0;        ///< [m] of the log's sensor pose where that contradicts it, else 0
   std::vector<HeightEvidence> sensors;
   std::string reason;  ///< why it is not known, else ""
 
