@@ -27,6 +27,31 @@ void require_no_run(const std::filesystem::path& folder) {
                    "name a file in another folder with -o");
 }
 
+/// camera.ini's neighbour with the height, camera_height.yaml.
+std::filesystem::path height_file(const std::filesystem::path& file) {
+  return file.parent_path() / (file.stem().string() + "_height.yaml");
+}
+
+/// One that no calibration has made is nobody's to overwrite.
+void require_own(const std::filesystem::path& file) {
+  if (is_made_by_calibrate(file)) return;
+  throw InputError(file.string(), "it exists, and oneac calibrate has not made it",
+                   "move it away, or give another name with -o");
+}
+
+/// Writes the height, or takes that of an earlier drive away. @return ", its name", or ""
+std::string write_height(const Calibration& calibration, const std::string& log,
+                         const std::filesystem::path& file) {
+  const std::string yaml = height_yaml(calibration, log);
+  std::error_code ignored;
+  if (yaml.empty()) {
+    std::filesystem::remove(file, ignored);
+    return "";
+  }
+  write_file_atomically(file, yaml);
+  return ", " + file.string() + " (for --params)";
+}
+
 struct CalibrateFlags {
   CalibrateOptions options;
   std::vector<std::string> parameter_files;
@@ -43,12 +68,14 @@ void run(CalibrateFlags& flags) {
   const std::filesystem::path folder = file.has_parent_path() ? file.parent_path() : ".";
   require_writable_folder(folder.string());
   require_no_run(folder);
+  require_own(height_file(file));
   catch_interrupts();
   const Calibration calibration = calibrate_camera(options);
   fail_if_empty(calibration.drive, options.run.log);
   write_file_atomically(file, camera_ini(calibration, options.run.log));
   write_file_atomically(folder / "report.html", calibration_html(calibration, options.run.log));
-  std::cout << calibration_summary(calibration) << "written: " << file.string() << ", "
+  const std::string height = write_height(calibration, options.run.log, height_file(file));
+  std::cout << calibration_summary(calibration) << "written: " << file.string() << height << ", "
             << (folder / "report.html").string() << '\n';
   fail_if_incomplete(calibration.drive);
 }
@@ -57,11 +84,13 @@ void run(CalibrateFlags& flags) {
 
 void add_calibrate(CLI::App& program) {
   auto* verb = program.add_subcommand(
-      "calibrate", "Focal length, principal point and distortion of a camera out of a drive");
+      "calibrate",
+      "Focal length, principal point, distortion and height of a camera out of a drive");
   auto flags = std::make_shared<CalibrateFlags>();
   verb->add_option("LOG", flags->options.run.log, "rawlog: plain, .gz or zstd");
   verb->add_option("-o,--output", flags->options.output,
-                   "file to write, for --calibration; report.html comes beside it");
+                   "file to write, for --calibration; report.html comes beside it, and where the "
+                   "log tells metres NAME_height.yaml, the camera's height for --params");
   verb->add_option("--fov-deg", flags->options.fov_deg,
                    "guess of the horizontal field of view, instead of the log's calibration; "
                    "60 where there is neither");

@@ -72,7 +72,7 @@ TEST_F(CalibrateVerb, SaysThatAStraightRoadCannotTell) {
 }
 
 TEST_F(CalibrateVerb, GyroscopeAndCourseAreSetAgainstTheTurnsByImages) {
-  const std::string log = simulate({"--frames", "180"});
+  const std::string log = simulate({"--frames", "400", "--seed", "3"});
   const ProgramResult result =
       run_program({ONEAC_PROGRAM, "calibrate", log, "-o", folder("camera.ini"), "--passes", "1"});
   ASSERT_EQ(result.exit_code, 0) << result.err;
@@ -82,6 +82,55 @@ TEST_F(CalibrateVerb, GyroscopeAndCourseAreSetAgainstTheTurnsByImages) {
   EXPECT_NEAR(std::stod(result.out.substr(at + said.size())), 0.0, 0.3) << result.out;
   EXPECT_NE(result.out.find("GPS course against"), std::string::npos) << result.out;
   EXPECT_NE(result.out.find("bends, gyroscope, GPS course)"), std::string::npos) << result.out;
+}
+
+TEST_F(CalibrateVerb, HeightIsToldByWhatTellsMetresAndRunTakesIt) {
+  const std::string log = simulate({"--frames", "110", "--silent-mount", "--camera-height", "2.0",
+                                    "--route", "straight", "--odometry"});
+  const ProgramResult result =
+      run_program({ONEAC_PROGRAM, "calibrate", log, "-o", folder("camera.ini")});
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_NE(result.out.find("GPS speed: "), std::string::npos) << result.out;
+  EXPECT_NE(result.out.find("wheels: "), std::string::npos) << result.out;
+  const std::string said = "camera is ";
+  const auto at = result.out.find(said + "2.0");
+  ASSERT_NE(at, std::string::npos) << result.out;
+  EXPECT_NEAR(std::stod(result.out.substr(at + said.size())), 2.0, 0.06) << result.out;
+  const ProgramResult run = run_program({ONEAC_PROGRAM, "run", log, "-o", folder("out"), "--count",
+                                         "5", "--calibration", folder("camera.ini"), "--params",
+                                         folder("camera_height.yaml"), "--no-progress"});
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  const auto summary = nlohmann::json::parse(text_of(folder("out") + "/summary.json"));
+  EXPECT_NEAR(summary["camera_height_m"].get<double>(), 2.0, 0.06);
+}
+
+TEST_F(CalibrateVerb, HeightThatTheLogContradictsSaysSo) {
+  const std::string log = simulate({"--frames", "110", "--route", "straight"});
+  const std::string wrong = folder("wrong.ini");
+  // Lengths by the road are as the focal length, so the height comes out too small.
+  std::ofstream(wrong) << "[CAMERA_PARAMS]\nresolution = [320 240]\ncx = 159.5\ncy = 119.5\n"
+                          "fx = 310\nfy = 310\ndist = [0 0 0 0 0]\n";
+  const ProgramResult result = run_program(
+      {ONEAC_PROGRAM, "calibrate", log, "-o", folder("camera.ini"), "--calibration", wrong});
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_NE(result.out.find("the log's sensor pose says 1.50 m"), std::string::npos) << result.out;
+}
+
+TEST_F(CalibrateVerb, HeightIsNotWrittenWhereNothingTellsMetres) {
+  const std::string log = simulate({"--frames", "12", "--route", "straight"});
+  const std::string file = folder("camera_height.yaml");
+  std::ofstream(file) << "# mine\n";
+  const std::vector<std::string> command = {ONEAC_PROGRAM, "calibrate", log, "-o",
+                                            folder("camera.ini")};
+  const ProgramResult refused = run_program(command);
+  EXPECT_EQ(refused.exit_code, 2);
+  EXPECT_NE(refused.err.find("camera_height.yaml"), std::string::npos) << refused.err;
+  EXPECT_EQ(text_of(file), "# mine\n");
+  std::ofstream(file) << "# made by oneac calibrate of another drive\n";
+  const ProgramResult result = run_program(command);
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_NE(result.out.find("height of the camera not told"), std::string::npos) << result.out;
+  EXPECT_FALSE(std::filesystem::exists(file)) << "of another drive";
 }
 
 TEST_F(CalibrateVerb, DoesNotOverwriteTheReportOfARun) {

@@ -4,6 +4,7 @@
 
 #include "oneac/base/error.h"
 #include "oneac/base/number_text.h"
+#include "oneac/calibration/focal_evidence.h"
 #include "oneac/geometry/angles.h"
 #include "oneac/geometry/lens.h"
 
@@ -18,6 +19,8 @@ namespace {
 constexpr double kUsualFov_deg = 60.0;
 // [-] 1σ of ln f of such a guess, and of a calibration that came with the log.
 constexpr double kGuessSigma = 0.3, kCalibrationSigma = 0.1;
+// [m] assumed of a camera above the road until metres tell: between cars and vans.
+constexpr double kUsualHeight = 1.5;
 // [-] 1σ of principal point, k1 and k2 before the drive: unknown lenses of up to 90°.
 constexpr double kCentreSigma = 0.03, kDistortionSigma = 0.3;
 // [-] the camera stays as it is: a change of ln f that is small against its 1σ, or at all.
@@ -75,6 +78,7 @@ void check_lens(const PinholeCamera& camera, const std::string& log) {
 Calibration start_of(const CalibrateOptions& options) {
   Calibration start;
   start.prior = {kCalibrationSigma, kCentreSigma, kDistortionSigma, kDistortionSigma};
+  start.given_sigma = options.run.front_end.self_calibration.focal_sigma;
   if (!options.fov_deg) {
     try {
       start.guess = first_frame(options.run, false).raw_camera;
@@ -86,7 +90,7 @@ Calibration start_of(const CalibrateOptions& options) {
       return start;
     }
   }
-  start.prior.focal = kGuessSigma;
+  start.prior.focal = start.given_sigma = kGuessSigma;
   start.guess =
       camera_of_view(first_frame(options.run, true).image, options.fov_deg.value_or(kUsualFov_deg));
   return start;
@@ -111,16 +115,59 @@ void measure(const Pass& pass, const PinholeCamera& tracked_with, double min_tur
     calibration.windows.push_back(window);
   }
   calibration.turns = turn_evidence(pass.drive);
+  std::vector<FocalEvidence> told;
   for (const TurnEvidence& turn : calibration.turns) {
-    belief.add_focal(start[kFocal] + turn.measured.log_focal, turn.measured.sigma);
+    told.push_back({turn.sensor, start[kFocal] + turn.measured.log_focal, turn.measured.sigma});
   }
-  calibration.estimate = belief.estimate();
+  JointEstimate joint = joint_estimate(belief, told);
+  calibration.estimate = std::move(joint.estimate);
+  calibration.agreeing = std::move(joint.agreeing);
+  calibration.contradicting = std::move(joint.contradicting);
+}
+
+/// The same drive with its lengths by the road, whatever height of the camera is assumed.
+RunOptions by_the_road(RunOptions run) {
+  run.front_end.self_calibration.refine = "off";
+  run.front_end.self_calibration.check = false;  // done here, with all tracks
+  run.front_end.scale.source = "height";
+  if (run.front_end.camera_height == 0.0) run.front_end.camera_height = kUsualHeight;
+  return run;
+}
+
+/// The last pass again with its metres by stereo; empty where the log has none.
+std::optional<DriveRecord> drive_by_stereo(RunOptions run) {
+  run.front_end.scale.source = "stereo";
+  try {
+    DriveRecord drive = run_drive(run);
+    if (drive.has_scale()) return drive;
+  } catch (const InputError&) {
+    return std::nullopt;  // no pair, or not rectified
+  }
+  return std::nullopt;
+}
+
+/// @param run  of the last pass
+CameraHeight height_of(const Calibration& c, const RunOptions& run) {
+  const WayErrors errors{run.front_end.scale.wheel_uncertainty,
+                         run.front_end.scale.road_uncertainty};
+  const auto by_stereo = c.drive.interrupted ? std::nullopt : drive_by_stereo(run);
+  CameraHeight height =
+      camera_height_of(c.drive, by_stereo ? &*by_stereo : nullptr, errors, c.focal_sigma());
+  // Lengths by the road are as focal length times height.
+  const double shorter = c.drive.raw_camera.fx / c.estimate.camera.fx;
+  height.metres *= shorter;
+  height.assumed *= shorter;
+  return height;
 }
 
 }  // namespace
 
+double Calibration::focal_sigma() const {
+  return knows_focal() ? estimate.sigma(kFocal) : given_sigma;
+}
+
 bool Calibration::knows_focal() const {
-  const bool confirmed = bends.size() >= IntrinsicsBelief::kFewestWindows || !turns.empty();
+  const bool confirmed = bends.size() >= IntrinsicsBelief::kFewestWindows || !agreeing.empty();
   return confirmed && estimate.sigma(kFocal) < 0.5 * prior.focal;
 }
 
@@ -138,15 +185,12 @@ void CalibrateOptions::validate() {
 
 Calibration calibrate_camera(const CalibrateOptions& options) {
   Calibration calibration = start_of(options);
-  RunOptions run = options.run;
-  run.front_end.self_calibration.refine = "off";
-  run.front_end.self_calibration.check = false;  // done here, with all tracks
-  const double min_turn = run.front_end.self_calibration.min_turn_deg * kDegree;
+  RunOptions run = by_the_road(options.run);
   PinholeCamera camera = calibration.guess;
   for (int i = 0; i < options.passes; ++i) {
     run.camera_model = camera;
     Pass pass = drive_once(run);
-    measure(pass, camera, min_turn, calibration);
+    measure(pass, camera, run.front_end.self_calibration.min_turn_deg * kDegree, calibration);
     calibration.drive = std::move(pass.drive);
     ++calibration.passes;
     const double moved = std::abs(std::log(calibration.estimate.camera.fx / camera.fx));
@@ -155,6 +199,7 @@ Calibration calibrate_camera(const CalibrateOptions& options) {
     if (!calibration.knows_focal() || calibration.drive.interrupted) break;
     if (moved < std::max(small, kSettled)) break;
   }
+  calibration.height = height_of(calibration, run);
   return calibration;
 }
 

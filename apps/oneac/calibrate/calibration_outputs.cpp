@@ -12,6 +12,7 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <fstream>
 #include <utility>
 #include <vector>
 
@@ -23,6 +24,9 @@ constexpr double kGood = 0.01;
 constexpr std::size_t kRows = 4, kColumns = 8;  // of the residuals by region
 // [-] 1σ that is still half of what was known before: the drive did not see it.
 constexpr double kUnseen = 0.5;
+
+// Of the first line of a file that the next calibration may replace.
+constexpr const char* kMadeBy = "# made by oneac calibrate";
 
 std::string percent(double share) {
   return fixed_text(100.0 * share, 1) + " %";
@@ -150,29 +154,50 @@ std::string mount_line(const Calibration& c) {
          fixed_text(tilt.roll_sigma / kDegree, 2) + " deg to the right";
 }
 
+std::string metres_text(double metres, double relative_sigma) {
+  return fixed_text(metres, 2) + " ± " + fixed_text(metres * relative_sigma, 2) + " m";
+}
+
+/// What each sensor says, in terms of the height that was assumed.
+std::string sensors_text(const CameraHeight& height) {
+  std::string text;
+  for (const HeightEvidence& told : height.sensors) {
+    const HeightMeasurement& m = told.measured;
+    text += (text.empty() ? "" : "; ") + told.sensor + ": " +
+            metres_text(height.assumed * m.ratio, m.sigma) + " by " + std::to_string(m.spans) +
+            " stretches, " + fixed_text(m.way, 0) + " m";
+  }
+  return text;
+}
+
 /// One per sensor that told something.
 std::vector<std::string> turn_lines(const Calibration& c) {
   std::vector<std::string> lines;
   for (const TurnEvidence& turn : c.turns) lines.push_back(text_of(turn, c.drive.raw_camera.fx));
+  for (const std::string& sensor : c.contradicting) {
+    lines.push_back(sensor +
+                    " contradicts what else tells the focal length and is not used; "
+                    "1 sigma is wider for it");
+  }
   return lines;
 }
 
 }  // namespace
 
 std::string verdict_of(const Calibration& c) {
-  if (c.bends.empty() && c.turns.empty()) {
+  if (c.bends.empty() && c.agreeing.empty()) {
     return "this drive cannot tell the focal length: it turns by " +
            fixed_text(c.largest_turn / kDegree, 1) +
            " degrees within twelve keyframes at most; drive some bends of 30 degrees and more, "
            "near houses or parked cars";
   }
-  if (c.bends.size() < IntrinsicsBelief::kFewestWindows && c.turns.empty()) {
+  if (c.bends.size() < IntrinsicsBelief::kFewestWindows && c.agreeing.empty()) {
     return "this drive has one bend only and nothing confirms what it says of the focal length; "
            "drive some bends of 30 degrees and more, near houses or parked cars";
   }
   const double sigma = c.estimate.sigma(kFocal);
   std::string bends = std::to_string(c.bends.size()) + (c.bends.size() == 1 ? " bend" : " bends");
-  for (const TurnEvidence& turn : c.turns) bends += ", " + turn.sensor;
+  for (const std::string& sensor : c.agreeing) bends += ", " + sensor;
   if (!c.knows_focal()) {
     return "this drive hardly tells the focal length (" + percent(sigma) + " by " + bends +
            "); drive some bends of 30 degrees and more, near houses or parked cars";
@@ -181,12 +206,44 @@ std::string verdict_of(const Calibration& c) {
   return sigma < kGood ? good : good + "; drive another bend for better";
 }
 
+std::string height_verdict(const CameraHeight& height) {
+  const std::string sensors = sensors_text(height);
+  if (!height.is_known()) {
+    return "height of the camera not told: " + height.reason +
+           (sensors.empty() ? "" : " (" + sensors + ")");
+  }
+  const std::string log = height.by_log > 0.0
+                              ? "; the log's sensor pose says " + fixed_text(height.by_log, 2) +
+                                    " m: one of both is wrong, check the unit of speeds"
+                              : "";
+  return "camera is " + metres_text(height.metres, height.sigma) + " above the road (" + sensors +
+         ")" + log;
+}
+
+std::string height_yaml(const Calibration& c, const std::string& log) {
+  if (!c.height.is_known()) return "";
+  return std::string(kMadeBy) + " (oneac " + version() + ") of " + log +
+         ": for --params, with the camera beside it\n# " + height_verdict(c.height) +
+         "\nfront_end:\n  camera_height: " + fixed_text(c.height.metres, 3) +
+         "\n  scale:\n    # of lengths by both\n    road_uncertainty: " +
+         fixed_text(c.height.length_sigma, 3) + "\n";
+}
+
+bool is_made_by_calibrate(const std::filesystem::path& file) {
+  std::error_code ignored;
+  if (!std::filesystem::exists(file, ignored)) return true;
+  std::ifstream in(file);
+  std::string first;
+  return std::getline(in, first) && first.rfind(kMadeBy, 0) == 0;
+}
+
 std::string camera_ini(const Calibration& c, const std::string& log) {
   std::vector<std::string> remarks = {"made by oneac calibrate (oneac " + version() + ") of " + log,
                                       verdict_of(c)};
   for (const Line& line : lines_of(c)) remarks.push_back(text_of(line));
   for (const std::string& line : turn_lines(c)) remarks.push_back(line);
   remarks.push_back(mount_line(c));
+  remarks.push_back(height_verdict(c.height));
   return calibration_text(c.estimate.camera, remarks);
 }
 
@@ -194,7 +251,7 @@ std::string calibration_summary(const Calibration& c) {
   std::string text;
   for (const Line& line : lines_of(c)) text += text_of(line) + "\n";
   for (const std::string& line : turn_lines(c)) text += line + "\n";
-  return text + mount_line(c) + "\n" + verdict_of(c) + "\n";
+  return text + mount_line(c) + "\n" + height_verdict(c.height) + "\n" + verdict_of(c) + "\n";
 }
 
 std::string calibration_html(const Calibration& c, const std::string& log) {
@@ -207,6 +264,7 @@ std::string calibration_html(const Calibration& c, const std::string& log) {
   page.table(unknowns_table(c));
   for (const std::string& line : turn_lines(c)) page.paragraph(line);
   page.paragraph(mount_line(c));
+  page.paragraph(height_verdict(c.height));
   if (!c.bends.empty()) page.table(bends_table(c));
   add_regions(page, c);
   return page.text();

@@ -45,6 +45,7 @@ struct DriveRecord {
   double length_doubt = 0.0;         ///< FrontEnd::length_doubt() at the end
   bool stamps_are_wrong = false;     ///< FrontEnd::stamps_are_wrong() at the end
   SourceReport source;
+  std::vector<SpeedReading> wheels;  ///< by the odometer of the log, in time order
   std::optional<TimeSpan> gps;  ///< from the first fix to the last, of what was read of the log
   std::vector<std::string> setup_faults;  ///< of camera and log, at the end: nothing is in metres
   std::size_t out_of_order = 0;           ///< images left out: not later than the one before

@@ -31,7 +31,10 @@ SourceOptions source_options(const RunOptions& options) {
 
 /// What GPS and IMU say, read before the images when the front-end is to use it.
 VehicleReference read_ahead(const RunOptions& options) {
-  if (options.front_end.tilt.source != "imu" && options.front_end.scale.source != "gps") return {};
+  const FrontEndOptions& front_end = options.front_end;
+  const bool used = front_end.tilt.source == "imu" || front_end.scale.source == "gps" ||
+                    front_end.self_calibration.refine != "off";
+  if (!used) return {};
   return read_vehicle_reference(options.log);
 }
 
@@ -84,6 +87,7 @@ class Drive {
         sensors_(read_ahead(options)),
         progress_(options.run.progress && !options.run.quiet, "frames") {
     feed_accelerations();
+    feed_turns();
     if (progress_.is_shown()) progress_.expect(count_images(source_options(options)));
   }
 
@@ -124,6 +128,16 @@ class Drive {
     record_.tilt_fallback =
         "front_end.tilt.source is imu, but the log holds no acceleration: the tilt of its sensor "
         "pose is used";
+  }
+
+  void feed_turns() {
+    for (const ImuSample& sample : sensors_.imu) {
+      if (sample.angular_rate) front_end_.add_yaw_rate(sample.time_s, sample.angular_rate->z());
+    }
+    for (const GpsFix& fix : sensors_.gps) {
+      if (!fix.course || !fix.speed) continue;
+      front_end_.add_course(fix.time_s, *fix.course, *fix.speed);
+    }
   }
 
   /// Behind an image that stopped the run: how far the threads had read ahead changes no count.
@@ -192,6 +206,7 @@ class Drive {
   }
 
   void feed_wheels(const std::vector<SpeedReading>& speeds) {
+    record_.wheels.insert(record_.wheels.end(), speeds.begin(), speeds.end());
     if (options_.front_end.scale.source != "wheels") return;
     for (const SpeedReading& told : speeds) {
       front_end_.add_speed(told.time_s, told.speed, told.sigma);

@@ -168,6 +168,18 @@ std::string about_lone_images(const DriveRecord& record) {
          "); their lengths come of the motion before and after";
 }
 
+/// Sensors whose turns are not those of the images.
+std::string about_contradicting_turns(const DriveRecord& record) {
+  std::string sensors;
+  for (const std::string& sensor : record.camera_belief.contradicting) {
+    sensors += (sensors.empty() ? "" : " and ") + sensor;
+  }
+  if (sensors.empty()) return "";
+  return "turns by " + sensors +
+         " contradict those of the images: not used for the focal length, "
+         "which is less sure for it; check unit, axis, sign and clock of the sensor";
+}
+
 /// A camera that is in doubt without being refused.
 std::string about_doubted_lengths(const DriveRecord& record) {
   constexpr double kWorthSaying = 0.015;  // [-] what the height alone leaves open
@@ -260,6 +272,9 @@ std::vector<std::string> notes_about(const DriveRecord& record) {
   }
   if (const std::string doubt = about_doubted_lengths(record); !doubt.empty()) {
     notes.push_back(doubt);
+  }
+  if (const std::string turns = about_contradicting_turns(record); !turns.empty()) {
+    notes.push_back(turns);
   }
   if (record.stamps_are_wrong && record.setup_faults.empty()) {
     notes.push_back(

@@ -144,6 +144,8 @@ Json learned_json(const DriveRecord& record) {
   Json json = {{"used", learned ? "learned" : "given"},
                {"focal_used_last_px", belief.used.focal_px()},
                {"bends", belief.bends},
+               {"sensors", belief.sensors},
+               {"sensors_contradicting", belief.contradicting},
                {"focal_by_bends_px", nullptr},
                {"focal_sigma", belief.focal_sigma}};
   if (belief.knows_focal()) json["focal_by_bends_px"] = belief.focal_px;

@@ -75,6 +75,10 @@ void IntrinsicsBelief::add_focal(double log_focal, double sigma) {
   told_.push_back(told);
 }
 
+double IntrinsicsBelief::prior_sigma(Intrinsic which) const {
+  return 1.0 / std::sqrt(prior_(which, which));
+}
+
 /// All that counts. What one window says nothing confirms: it may be full of traffic.
 std::vector<IntrinsicsMeasurement> IntrinsicsBelief::counted() const {
   std::vector<IntrinsicsMeasurement> counted;

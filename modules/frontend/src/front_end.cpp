@@ -107,6 +107,7 @@ FrameResult FrontEnd::process(PreparedFrame prepared) {
   if (!started_) {
     started_ = true;
     FrameResult first = odometry_->start(frame);
+    learner_->add_frame(first.time_s, false);
     trajectory_.add(first);
     return first;
   }
@@ -129,10 +130,12 @@ FrameResult FrontEnd::process(PreparedFrame prepared) {
 }
 
 void FrontEnd::learn_camera(const FrameResult& result) {
-  const auto keyframe = odometry_->newest_keyframe();
-  if (!keyframe) return;
   const double before = previous_camera_.focal_px();
-  const bool changed = learner_->follow(*keyframe, result.index, result.time_s);
+  learner_->add_frame(result.time_s, result.step->status != StepStatus::kPredicted);
+  bool changed = learner_->follow_turns(result.settled.frames, tilt());
+  if (const auto keyframe = odometry_->newest_keyframe()) {
+    changed = learner_->follow(*keyframe, result.index, result.time_s) || changed;
+  }
   odometry_->blame_camera(learner_->fault());
   odometry_->doubt_camera(learner_->belief().doubt);
   if (!changed) return;
@@ -161,6 +164,7 @@ std::optional<FrameResult> FrontEnd::feed(const mrpt::obs::CObservation::Ptr& ob
   if (intake.passed_over) log_first(*intake.passed_over);
   if (intake.inertial) {
     const auto& rate = intake.inertial->angular_rate;
+    if (rate) add_yaw_rate(intake.inertial->time_s, rate->z());
     add_acceleration(intake.inertial->time_s, *intake.inertial->acceleration,
                      rate ? std::optional(rate->z()) : std::nullopt);
   }
@@ -191,6 +195,21 @@ void FrontEnd::add_acceleration(double time_s, const Eigen::Vector3d& accelerati
   }
   if (yaw_rate) require_within(*yaw_rate, SensorLimits::kRate, "add_acceleration: yaw_rate");
   odometry_->add_inertial({time_s, acceleration, yaw_rate});
+}
+
+void FrontEnd::add_yaw_rate(double time_s, double yaw_rate) {
+  require_within(time_s, SensorLimits::kLatest, "add_yaw_rate: time_s");
+  require_within(yaw_rate, SensorLimits::kRate, "add_yaw_rate: yaw_rate");
+  learner_->add_yaw_rate(time_s, yaw_rate);
+}
+
+void FrontEnd::add_course(double time_s, double course, double speed_mps) {
+  constexpr double kTurn = 4.0 * M_PI;
+  require_within(time_s, SensorLimits::kLatest, "add_course: time_s");
+  require_within(course, kTurn, "add_course: course");
+  require(speed_mps >= 0.0 && speed_mps <= SensorLimits::kFastest, "add_course: speed_mps",
+          speed_mps, "from 0 to 1000");
+  learner_->add_course(time_s, course, speed_mps);
 }
 
 void FrontEnd::add_speed(double time_s, double speed_mps, double sigma_mps) {

@@ -5,6 +5,7 @@
 #include "oneac/base/number_text.h"
 #include "oneac/geometry/angles.h"
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
@@ -18,7 +19,25 @@ constexpr std::size_t kMostTracks = 200;
 constexpr double kSure = 3.0, kTolerated = 0.03;
 // [σ] from which what bends say is used: of good calibrations they contradict one in twenty.
 constexpr double kDoubtful = 2.0;
-constexpr std::size_t kFewestBends = 2;
+// [-] of ln f: who is farther away does not measure the camera's turns.
+constexpr double kPlausible = 0.35;
+
+/// How far lengths by the given focal length are to be doubted. Where sensors contradict, the
+/// bends alone are heard, too: what is widened accuses less. Sensors that only contradict each
+/// other may each be right.
+double doubt_of(const JointEstimate& joint, const IntrinsicsEstimate& bends,
+                const std::vector<FocalEvidence>& told) {
+  const bool by_bends = bends.windows >= IntrinsicsBelief::kFewestWindows;
+  if (!by_bends && told.empty()) return 0.0;
+  double doubt = focal_doubt(joint.estimate.change[kFocal], joint.estimate.sigma(kFocal));
+  if (joint.contradicting.empty()) return doubt;
+  if (by_bends) return std::max(doubt, focal_doubt(bends.change[kFocal], bends.sigma(kFocal)));
+  for (const FocalEvidence& one : told) {
+    if (std::abs(one.log_focal) > kPlausible) continue;
+    doubt = std::max(doubt, focal_doubt(one.log_focal, one.sigma));
+  }
+  return doubt;
+}
 
 }  // namespace
 
@@ -31,7 +50,8 @@ void CameraLearner::start(const PinholeCamera& given) {
   belief_.drive_sigma = intrinsics_->estimate().drive_sigma[kFocal];
   static_cast<void>(cutter_.finish());
   change_.setZero();
-  contradicted_ = false;
+  contradicted_ = confirmed_ = false;
+  accused_sigmas_ = 0.0;
 }
 
 IntrinsicsPrior CameraLearner::prior() const {
@@ -48,14 +68,39 @@ bool CameraLearner::follow(const NewestKeyframe& keyframe, std::size_t index, do
     view.sightings.push_back({seen.track, belief_.used.project(seen.x)});
   }
   const auto window = cutter_.add(std::move(view));
-  if (!window || !measure(*window) || options_.refine == "off") return false;
+  return window && measure(*window) && move();
+}
+
+bool CameraLearner::move() {
+  if (!learns()) return false;
   // A camera that was calibrated well is better than a bend's half per cent.
-  contradicted_ = contradicted_ || contradicts(kDoubtful);
+  contradicted_ =
+      contradicted_ || (confirmed_ && std::abs(change_[kFocal]) >= kDoubtful * belief_.focal_sigma);
   if (!contradicted_) return false;
   IntrinsicsVector focal = IntrinsicsVector::Zero();
   focal[kFocal] = change_[kFocal];
   belief_.used = changed(belief_.given, focal);
   return true;
+}
+
+void CameraLearner::add_yaw_rate(double time_s, double rate) {
+  if (learns()) turns_.add_yaw_rate(time_s, rate);
+}
+
+void CameraLearner::add_course(double time_s, double course, double speed) {
+  if (learns()) turns_.add_course(time_s, course, speed);
+}
+
+void CameraLearner::add_frame(double time_s, bool carried) {
+  if (!learns()) return;
+  time_s_ = time_s;
+  turns_.add_frame(time_s, carried, std::log(belief_.used.fx / belief_.given.fx));
+}
+
+bool CameraLearner::follow_turns(const std::vector<SettledFrame>& settled, const Tilt& tilt) {
+  if (!learns() || !turns_.settle(settled, tilt) || turns_.evidence().empty()) return false;
+  conclude();
+  return move();
 }
 
 void CameraLearner::finish() {
@@ -69,25 +114,33 @@ bool CameraLearner::measure(const CalibrationWindow& window) {
   const auto measured = measure_intrinsics(window, belief_.given, change_, prior(), options);
   if (!measured) return false;
   intrinsics_->add(*measured);
-  const IntrinsicsEstimate estimate = intrinsics_->estimate();
+  conclude();
+  return true;
+}
+
+void CameraLearner::conclude() {
+  const std::vector<FocalEvidence> told = turns_.evidence();
+  const IntrinsicsEstimate bends = intrinsics_->estimate();
+  JointEstimate joint = joint_estimate(*intrinsics_, told);
+  const IntrinsicsEstimate& estimate = joint.estimate;
   change_ = estimate.change;
+  confirmed_ = joint.is_confirmed();
+  // A sensor that contradicts takes nothing away from what the bends say.
+  const IntrinsicsEstimate& accuser = joint.contradicting.empty() ? estimate : bends;
+  accused_sigmas_ = std::abs(accuser.change[kFocal]) / accuser.sigma(kFocal);
   belief_.focal_px = estimate.camera.focal_px();
   belief_.focal_sigma = estimate.sigma(kFocal);
   belief_.drive_sigma = estimate.drive_sigma[kFocal];
   belief_.bends = estimate.windows;
-  if (belief_.bends >= kFewestBends) {
-    belief_.doubt = focal_doubt(change_[kFocal], belief_.focal_sigma);
-  }
+  belief_.doubt = doubt_of(joint, bends, told);
+  belief_.sensors = std::move(joint.agreeing);
+  belief_.contradicting = std::move(joint.contradicting);
   belief_.history.push_back({index_, time_s_, belief_.focal_px, belief_.focal_sigma});
-  return true;
-}
-
-bool CameraLearner::contradicts(double sigmas) const {
-  return belief_.bends >= kFewestBends && std::abs(change_[kFocal]) >= sigmas * belief_.focal_sigma;
 }
 
 std::optional<std::string> CameraLearner::fault() const {
-  if (!contradicts(kSure) || std::abs(change_[kFocal]) < kTolerated) return std::nullopt;
+  const bool sure = confirmed_ && accused_sigmas_ >= kSure;
+  if (!sure || std::abs(change_[kFocal]) < kTolerated) return std::nullopt;
   return "the bends of this drive say a focal length of " + fixed_text(belief_.focal_px, 0) +
          " px (to " + fixed_text(100.0 * belief_.focal_sigma, 1) +
          " %) where the calibration has " + fixed_text(belief_.given.focal_px(), 0) +

@@ -1,5 +1,7 @@
 #pragma once
 
+#include "camera/turn_learner.h"
+
 #include "oneac/calibration/intrinsics_belief.h"
 #include "oneac/frontend/camera_belief.h"
 #include "oneac/frontend/front_end_options.h"
@@ -8,11 +10,13 @@
 #include <cstddef>
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace oneac {
 
 /// What the bends of a drive say about its camera: collects keyframes, measures a window when it
-/// holds a bend, and says which camera to use and whether the given one can be right.
+/// holds a bend, and says which camera to use, whether the given one can be right, and how far it
+/// is to be doubted. The one owner of that: turns by other sensors come in here, too.
 class CameraLearner {
  public:
   explicit CameraLearner(const SelfCalibrationOptions& options) : options_(options) {}
@@ -21,6 +25,13 @@ class CameraLearner {
   void start(const PinholeCamera& given);
   /// The next keyframe. @return whether the camera to use has changed
   bool follow(const NewestKeyframe& keyframe, std::size_t index, double time_s);
+  /// Turns by other sensors, in order of time, see TurnLearner. Not used while f is not learned.
+  void add_yaw_rate(double time_s, double rate);
+  void add_course(double time_s, double course, double speed);
+  /// The next frame of the drive, and whether the images told its step.
+  void add_frame(double time_s, bool carried);
+  /// What has become final. @return whether the camera to use has changed
+  bool follow_turns(const std::vector<SettledFrame>& settled, const Tilt& tilt);
   /// Measures what still waits at the end of a drive. The camera to use stays.
   void finish();
 
@@ -33,17 +44,23 @@ class CameraLearner {
   /// @return whether something was learned
   bool measure(const CalibrationWindow& window);
   [[nodiscard]] IntrinsicsPrior prior() const;
-  /// Bends confirm each other, and the given focal length is so many of their σ away.
-  [[nodiscard]] bool contradicts(double sigmas) const;
+  /// Bends and what other sensors tell, together.
+  void conclude();
+  /// @return whether the camera to use has changed
+  bool move();
+  [[nodiscard]] bool learns() const { return options_.refine != "off"; }
 
   SelfCalibrationOptions options_;
   std::optional<IntrinsicsBelief> intrinsics_;
   WindowCutter cutter_;
   CameraBelief belief_;
+  TurnLearner turns_;
   IntrinsicsVector change_ = IntrinsicsVector::Zero();
-  bool contradicted_ = false;  ///< once: from then on the camera follows what is learned
-  std::size_t index_ = 0;      ///< image of the newest keyframe
-  double time_s_ = 0.0;        ///< of it [s]
+  bool confirmed_ = false;       ///< more than one voice tells the focal length
+  double accused_sigmas_ = 0.0;  ///< the given focal length is so many σ away from what accuses it
+  bool contradicted_ = false;    ///< once: from then on the camera follows what is learned
+  std::size_t index_ = 0;        ///< image of the newest keyframe
+  double time_s_ = 0.0;          ///< of it [s]
 };
 
 }  // namespace oneac

@@ -41,6 +41,8 @@ class IntrinsicsBelief {
   /// @throws std::invalid_argument unless both are finite and sigma is above 0
   void add_focal(double log_focal, double sigma);
   [[nodiscard]] IntrinsicsEstimate estimate() const;
+  /// 1σ before the drive.
+  [[nodiscard]] double prior_sigma(Intrinsic which) const;
 
  private:
   [[nodiscard]] std::vector<IntrinsicsMeasurement> counted() const;

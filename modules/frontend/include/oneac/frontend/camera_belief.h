@@ -3,6 +3,7 @@
 #include "oneac/geometry/camera.h"
 
 #include <cstddef>
+#include <string>
 #include <vector>
 
 namespace oneac {
@@ -17,17 +18,21 @@ struct FocalMoment {
 
 /// The camera as given, as used, and as the bends of the drive say that it is.
 struct CameraBelief {
-  PinholeCamera given;       ///< of the images as the front-end gets them
-  PinholeCamera used;        ///< from the newest frame on
-  double focal_px = 0.0;     ///< most probable focal length
-  double focal_sigma = 0.0;  ///< relative 1σ of it
-  double drive_sigma = 0.0;  ///< the same by the drive alone; above 1: it cannot know
-  std::size_t bends = 0;     ///< windows with a bend that were measured
-  double doubt = 0.0;        ///< relative 1σ that lengths by the given one have by what bends say
+  PinholeCamera given;                     ///< of the images as the front-end gets them
+  PinholeCamera used;                      ///< from the newest frame on
+  double focal_px = 0.0;                   ///< most probable focal length
+  double focal_sigma = 0.0;                ///< relative 1σ of it
+  double drive_sigma = 0.0;                ///< the same by the drive alone; above 1: it cannot know
+  std::size_t bends = 0;                   ///< windows with a bend that were measured
+  std::vector<std::string> sensors;        ///< whose turns count, too: "gyroscope", "GPS course"
+  std::vector<std::string> contradicting;  ///< whose turns contradict, so that focal_sigma is wide
+  double doubt = 0.0;  ///< relative 1σ that lengths by the given one have by what bends say
   std::vector<FocalMoment> history;
 
   /// The drive has made the focal length surer than it was given.
-  [[nodiscard]] bool knows_focal() const { return bends > 0 && drive_sigma < kKnown; }
+  [[nodiscard]] bool knows_focal() const {
+    return (bends > 0 || !sensors.empty()) && drive_sigma < kKnown;
+  }
 
  private:
   static constexpr double kKnown = 0.03;  // no worse than what is taken for granted

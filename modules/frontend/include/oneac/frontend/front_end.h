@@ -79,6 +79,13 @@ class FrontEnd : public mrpt::system::COutputLogger {
   /// two ahead of the images. One that is not later than the last is not used.
   /// @throws std::invalid_argument as add_acceleration does; a speed is from 0 on, its 1σ above 0
   void add_speed(double time_s, double speed_mps, double sigma_mps = SpeedReading::kDoppler);
+  /// The vehicle's yaw rate [rad/s], counter-clockwise, and a course over ground [rad], clockwise
+  /// from north, with the speed [m/s]: turns for front_end.calibration.refine, else not used. In
+  /// order of time; they may lie ahead of the images. feed() takes the rates of an IMU that has
+  /// accelerations, too, and no course.
+  /// @throws std::invalid_argument as add_acceleration does; a course is within two full turns
+  void add_yaw_rate(double time_s, double yaw_rate);
+  void add_course(double time_s, double course, double speed_mps);
   /// CPU time of the stages so far, by name.
   [[nodiscard]] const mrpt::system::CTimeLogger& profiler() const { return profiler_; }
   /// Makes everything final that still waits, at the end of a drive. Frames that come after it
