@@ -1,5 +1,7 @@
 #include "klt/motion_prediction.h"
 
+#include "klt/static_points.h"
+
 #include "oneac/geometry/levelling.h"
 
 #include <gtest/gtest.h>
@@ -47,6 +49,32 @@ TEST(MotionPrediction, SaysNothingAboutTheRoadAboveTheHorizonOrWithoutScale) {
   EXPECT_FALSE(MotionPrediction(hint(true)).on_road({600.0, 250.0}));
   EXPECT_FALSE(MotionPrediction(hint(false)).on_road({450.0, 420.0}));
   EXPECT_TRUE(MotionPrediction(hint(false)).far_away({450.0, 420.0}));
+}
+
+/// Of points of the road seen in fifty pairs, this share keeps its place in the picture.
+StaticPoints after_drive(double resting_share) {
+  const MotionHint h = hint(true);
+  const MotionPrediction motion(h);
+  StaticPoints points(5);
+  for (std::size_t pair = 0; pair < 50; ++pair) {
+    points.begin_pair(pair, 10.0);
+    for (int i = 0; i < 20; ++i) {
+      KltTrack track;
+      track.u = {350.0 + 10.0 * i, 420.0};
+      const Eigen::Vector2d flow = road_point(h, track.u) - track.u;
+      const bool at_rest = i < 20.0 * resting_share;
+      static_cast<void>(
+          points.rests(track, at_rest ? Eigen::Vector2d(0.05, 0.0) : flow, motion, false));
+    }
+  }
+  return points;
+}
+
+TEST(StaticPoints, SeesDirtOnTheGlassWhereATenthOfTheRoadRests) {
+  EXPECT_FALSE(StaticPoints(5).views_through_dirt()) << "nothing had to move yet";
+  EXPECT_FALSE(after_drive(0.0).views_through_dirt());
+  EXPECT_FALSE(after_drive(0.05).views_through_dirt()) << "a truck keeps its distance";
+  EXPECT_TRUE(after_drive(0.2).views_through_dirt());
 }
 
 TEST(MotionPrediction, KnowsNothingWithoutAMotion) {

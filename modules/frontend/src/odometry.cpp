@@ -53,13 +53,16 @@ double share_of_inliers(const TwoView& seen) {
 }
 
 StepInTime step_in_time(const FrameStamp& before, const FrameStamp& now, const TwoView& seen,
-                        const RelativePose& last_motion) {
+                        const RoadPair& road, const RelativePose& last_motion) {
   StepInTime step;
   step.status = seen.status;
   step.begin_s = before.time_s;
   step.end_s = now.time_s;
   step.expected = last_motion;
   step.resting = share_of_inliers(seen);
+  step.car_is_known = road.car_is_known;
+  step.shows_travel = road.shows_travel;
+  step.through_dirt = road.through_dirt;
   return step;
 }
 
@@ -173,15 +176,11 @@ FrameResult Odometry::integrate(const FrameStamp& now, TwoView seen, const RoadP
   if (!turn_gate_.allows(seen.pose.R, before.time_s, now.time_s)) {
     seen = refused(std::move(seen), last_motion_);
   }
-  StepInTime in_time = step_in_time(before, now, seen, last_motion_);
-  in_time.car_is_known = road.car_is_known;
-  in_time.shows_travel = road.shows_travel;
-  in_time.through_dirt = road.through_dirt;
+  StepInTime in_time = step_in_time(before, now, seen, road, last_motion_);
   const auto rest = scale_.rest_by_road(road, seen, attitude_.now(), heading(), in_time);
   if (rest) {
     seen = resting(std::move(seen));
-    in_time.status = seen.status;
-    in_time.resting = share_of_inliers(seen);
+    in_time.rests(seen.status, share_of_inliers(seen));
   }
   const MapLink link = map_.link(seen);
   if (link.began_anew) scale_.restart(before.time_s);
@@ -193,15 +192,28 @@ FrameResult Odometry::integrate(const FrameStamp& now, TwoView seen, const RoadP
   // The map, which was measured by this very step, cannot confirm it.
   const auto told = begun ? std::vector<LengthMeasurement>{}
                           : scale_.measure(seen, link.carried, attitude_.now(), heading());
-  setup_.follow(seen, attitude_.now().R_level_cam);
-  const StepLength length = setup_.checked_after(scale_.length_of(in_time, told));
-  if (seen.status == StepStatus::kOk && length.length > kTellingWay)
-    course_.follow(seen.pose.t.normalized());
+  const StepLength length = length_of(in_time, seen, told);
   seen = as_it_moved(std::move(seen), length, heading());
   if (seen.pose.t.norm() > 0.0) heading_ = seen.pose.t.normalized();
   if (scale_.map_is_refuted()) map_.forget();
   const StepResult step = step_result(before, now, seen, length, map_.segment());
   attitude_.follow(step);
+  FrameResult result = moved(now, seen, step);
+  if (begun) result.rescaled *= begun->factor;
+  return result;
+}
+
+StepLength Odometry::length_of(const StepInTime& step, const TwoView& seen,
+                               const std::vector<LengthMeasurement>& told) {
+  setup_.follow(seen, attitude_.now().R_level_cam);
+  const StepLength length = setup_.checked_after(scale_.length_of(step, told));
+  if (seen.status == StepStatus::kOk && length.length > kTellingWay) {
+    course_.follow(seen.pose.t.normalized());
+  }
+  return length;
+}
+
+FrameResult Odometry::moved(const FrameStamp& now, const TwoView& seen, const StepResult& step) {
   const RelativePose motion = motion_of(step);
   const auto lengths = map_.move(now, motion, seen, levelling_rotation(attitude_.mounting().tilt),
                                  scale_.lengths_hold());
@@ -210,9 +222,7 @@ FrameResult Odometry::integrate(const FrameStamp& now, TwoView seen, const RoadP
   T_cam_odom_ = orthonormalised(motion * T_cam_odom_);
   FrameResult result = frame_result(now, map_.settle(correction), attitude_);
   result.T_odom_cam = camera_in_frame(T_cam_odom_);
-  result = with_step(std::move(result), step, correction);
-  if (begun) result.rescaled *= begun->factor;
-  return result;
+  return with_step(std::move(result), step, correction);
 }
 
 std::optional<ScaleCorrection> Odometry::begin_scale(

@@ -13,6 +13,7 @@
 #include "oneac/initialisers/relative_pose_initialiser.h"
 
 #include <optional>
+#include <vector>
 
 namespace oneac {
 
@@ -54,6 +55,12 @@ class Odometry {
 
  private:
   [[nodiscard]] FrameResult integrate(const FrameStamp& now, TwoView seen, const RoadPair& road);
+  /// What is made of those who tell the step's length; set-up and course learn from it.
+  [[nodiscard]] StepLength length_of(const StepInTime& step, const TwoView& seen,
+                                     const std::vector<LengthMeasurement>& told);
+  /// The map with the step in it.
+  [[nodiscard]] FrameResult moved(const FrameStamp& now, const TwoView& seen,
+                                  const StepResult& step);
   [[nodiscard]] MotionPrior motion_prior(double end_s) const;
   /// t̂ of a camera that goes on as it did.
   [[nodiscard]] Eigen::Vector3d heading() const;

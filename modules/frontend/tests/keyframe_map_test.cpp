@@ -117,6 +117,20 @@ TEST_F(KeyframeMapDrive, AppliesACorrectionToTheNewestFrame) {
   EXPECT_NEAR(link_.carried->length, 0.5, 0.02) << "landmarks shrank with it";
 }
 
+TEST_F(KeyframeMapDrive, IsRescaledBetweenTwoStepsWithAllThatWaits) {
+  for (int i = 0; i < 4; ++i) drive(1.0);
+  map_.rescale({1.0, 2.0, true, 0.03, 0});
+  const FrameInMap next = drive(1.0);
+  ASSERT_TRUE(link_.carried.has_value());
+  EXPECT_NEAR(link_.carried->length, 2.0, 0.05) << "landmarks grew with it";
+  EXPECT_NEAR(next.T_first_cam.translation().z(), 10.0, 0.2);
+  take(map_.finish());
+  ASSERT_EQ(frames_.size(), 6U);
+  for (const SettledFrame& frame : frames_) {
+    EXPECT_NEAR(frame.T_first_cam.translation().z(), 2.0 * static_cast<double>(frame.frame), 0.2);
+  }
+}
+
 TEST_F(KeyframeMapDrive, BeginsANewSegmentAfterAStepThatWasNotCarried) {
   for (int i = 0; i < 3; ++i) drive(1.0);
   lose();

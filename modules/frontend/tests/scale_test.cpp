@@ -1,6 +1,7 @@
 #include "scale/scale.h"
 
 #include "scale/depth_scale.h"
+#include "scale/room.h"
 
 #include "oneac/frontend/front_end_options.h"
 #include "oneac/geometry/homography.h"
@@ -187,6 +188,115 @@ TEST(Scale, StepsWhoseDirectionsContradictEachOtherDoNotMeasureTheMap) {
   };
   EXPECT_NEAR(factor_of(0.8), 1.25, 0.02) << "ten steps of 0.1 m that the window has shortened";
   EXPECT_EQ(factor_of(0.2), 1.0) << "there and back: it would stretch the map fivefold";
+}
+
+TEST(Scale, ARestOfAFewPointsIsNotMetricUnlessTheCarStoodBefore) {
+  const auto rest_of = [](double share, bool stood) {
+    Scale scale = started(by("height"));
+    const double way = stood ? 0.001 : 0.05;
+    static_cast<void>(
+        scale.length_of(step(StepStatus::kOk, 10.0, way), {{way, 0.01, LengthSource::kRoad, 50}}));
+    StepInTime resting = rest(MeasuredTravel{0.001, 0.004, LengthSource::kRoadImage, true});
+    resting.resting = share;
+    return scale.length_of(resting, {});
+  };
+  EXPECT_TRUE(rest_of(0.9, false).metric);
+  EXPECT_FALSE(rest_of(0.1, false).metric) << "edges of compressed blocks rest by chance";
+  EXPECT_TRUE(rest_of(0.1, true).metric) << "a bus passes";
+}
+
+TEST(Scale, ARestSeenThroughDirtIsNotMetric) {
+  Scale scale = started(by("height"));
+  StepInTime resting = rest(MeasuredTravel{0.001, 0.004, LengthSource::kRoadImage, true});
+  resting.through_dirt = true;
+  EXPECT_FALSE(scale.length_of(resting, {}).metric);
+}
+
+StepInTime on_the_road(double begin_s, double metres) {
+  StepInTime next = step(StepStatus::kOk, begin_s, metres);
+  next.direct = MeasuredTravel{metres, 0.04, LengthSource::kRoadImage, true};
+  return next;
+}
+
+TEST(Scale, TheFirstStepInMetresScalesTheMapThatCarriesIt) {
+  Scale scale = started(by("height"));
+  const StepInTime first = on_the_road(10.0, 1.3);
+  const auto begun = scale.begin(first, carried(0.8));
+  ASSERT_TRUE(begun);
+  EXPECT_NEAR(begun->factor, 1.3 / 0.8, 1e-9);
+  EXPECT_TRUE(begun->metric);
+  EXPECT_GT(begun->sigma, 0.04 / 1.3);
+  EXPECT_NEAR(scale.length_of(first, {}).length, 1.3, 1e-12);
+  const StepLength next = scale.length_of(step(StepStatus::kOk, 10.1, 1.3), {carried(1.31)});
+  EXPECT_EQ(next.source, LengthSource::kMap);
+  EXPECT_TRUE(next.metric);
+  EXPECT_FALSE(scale.begin(on_the_road(10.2, 1.3), carried(1.3))) << "it has a scale";
+}
+
+TEST(Scale, AStepFasterThanAnyCarScalesNoMap) {
+  Scale scale = started(by("height"));
+  EXPECT_FALSE(scale.begin(on_the_road(10.0, 8.0), carried(0.8)));
+  EXPECT_FALSE(scale.begin(step(StepStatus::kOk, 10.0, 1.0), carried(0.8))) << "not in metres";
+}
+
+/// Scaled by 1.3 m on 0.8, then carried so badly that it is not metric any more.
+Scale unsure() {
+  Scale scale = started(by("height"));
+  const StepInTime first = on_the_road(10.0, 1.3);
+  static_cast<void>(scale.begin(first, carried(0.8)));
+  static_cast<void>(scale.length_of(first, {}));
+  LengthMeasurement badly = carried(1.3);
+  badly.sigma = 0.025;
+  static_cast<void>(scale.length_of(step(StepStatus::kOk, 10.1, 1.3), {badly}));
+  const KeyframePair without_road{{}, {Eigen::Matrix3d::Identity(), {0.0, 0.0, -2.6}}};
+  static_cast<void>(scale.correct({without_road, {}}, {}, kFocal));
+  return scale;
+}
+
+TEST(Scale, AMapThatIsUnsureStillTellsWhatInertiaCannotBeRightAbout) {
+  Scale agrees = unsure(), contradicts = unsure();
+  ASSERT_FALSE(agrees.is_metric());
+  ASSERT_LT(agrees.uncertainty(), 0.2);
+  const StepInTime next = step(StepStatus::kOk, 10.2, 1.3);
+  EXPECT_TRUE(agrees.length_of(next, {carried(1.35)}).metric) << "inertia goes on";
+  EXPECT_FALSE(contradicts.length_of(next, {carried(3.9)}).metric) << "images were dropped";
+}
+
+TEST(Scale, AMapThatIsUnsureStillTellsWhatTheRoadCannotBeRightAbout) {
+  Scale scale = unsure();
+  const StepLength length = scale.length_of(on_the_road(10.2, 1.2), {carried(3.9)});
+  EXPECT_FALSE(length.metric);
+  EXPECT_TRUE(length.conflict);
+}
+
+TEST(Scale, ARollThatNobodyKnowsIsInEveryLengthByTheRoad) {
+  const auto sigma_with = [](double roll_sigma) {
+    Scale scale = started(by("height"));
+    const Levelling level{Eigen::Matrix3d::Identity(), 0.0, roll_sigma};
+    const StepInTime next = step(StepStatus::kOk, 10.0, 1.0);
+    static_cast<void>(scale.measure_directly({}, seen_road(1.0), {}, level, kAhead, next));
+    return scale.length_of(next, {{1.0, 0.01, LengthSource::kRoad, 50}}).sigma;
+  };
+  EXPECT_NEAR(sigma_with(0.02), std::hypot(sigma_with(0.0), 0.02), 1e-9);
+}
+
+TEST(Scale, ARoadAlongAWayThatWheelsDoNotGoTellsNothing) {
+  Scale scale = started(by("height"));
+  EXPECT_EQ(scale.measure(seen_road(0.9), std::nullopt, {}, Eigen::Vector3d::UnitX()).size(), 0U);
+  EXPECT_EQ(scale.measure(seen_road(0.9), std::nullopt, {}, -kAhead).size(), 1U) << "astern";
+}
+
+TEST(RoomBeside, IsOneHeightOnARoadAndShrinksWithALengthThatIsTooShort) {
+  const KeyframePair pair = road(0.9, 0.9);
+  const std::vector<bool> all(pair.acs.size(), true);
+  const double room = room_beside(pair.acs, all, pair.T_2_1);
+  EXPECT_GE(room, kHeight);
+  EXPECT_TRUE(is_wide_enough(room / kHeight));
+  EXPECT_FALSE(is_wide_enough(0.03 * room / kHeight)) << "the bonnet was taken for the road";
+}
+
+TEST(RoomBeside, IsUnboundedWhereNothingIsSeen) {
+  EXPECT_TRUE(std::isinf(room_beside({}, {}, {Eigen::Matrix3d::Identity(), -kAhead})));
 }
 
 TEST(Scale, ARestIsNoWayHoweverItsNoiseAddsUp) {

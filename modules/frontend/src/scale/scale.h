@@ -28,6 +28,11 @@ struct StepInTime {
   bool shows_travel = false;             ///< the images show travel, whatever rests in them
   bool through_dirt = false;             ///< what rests may be drops or dirt on the glass
 
+  /// It is a rest, of this share of the points.
+  void rests(StepStatus rest, double share) {
+    status = rest;
+    resting = share;
+  }
   [[nodiscard]] double seconds() const { return end_s - begin_s; }
 };
 
