@@ -32,6 +32,7 @@ LengthSource source_of_metres(const ScaleOptions& options) {
   const bool by_speed = options.source == "gps" || options.source == "wheels";
   return by_speed ? LengthSource::kSpeed : LengthSource::kNone;
 }
+
 }  // namespace
 
 Scale::Scale(const FrontEndOptions& options)
@@ -111,11 +112,15 @@ std::optional<ScaleCorrection> Scale::begin(const StepInTime& step,
   ScaleCorrection correction;
   correction.factor =
       filter_.correct(told.length / carried.length, std::hypot(told.sigma, carried.sigma));
+  interval_.rescale(correction.factor);
+  return corrected(correction);
+}
+
+ScaleCorrection Scale::corrected(ScaleCorrection correction) {
+  speeds_.rescale(correction.factor);
   correction.sigma = std::hypot(filter_.uncertainty(), shared_doubt());
   correction.metric =
       filter_.is_metric() && is_sure(filter_.uncertainty(), shared_doubt(), max_uncertainty_);
-  interval_.rescale(correction.factor);
-  speeds_.rescale(correction.factor);
   return correction;
 }
 
@@ -245,11 +250,7 @@ ScaleCorrection Scale::correct(const MapLengths& map, const Levelling& first, do
   }
   needs_road_image_ = metres_ == LengthSource::kRoad && correction.ground_acs == 0;
   interval_ = {};
-  speeds_.rescale(correction.factor);
-  correction.sigma = std::hypot(filter_.uncertainty(), shared_doubt());
-  correction.metric =
-      filter_.is_metric() && is_sure(filter_.uncertainty(), shared_doubt(), max_uncertainty_);
-  return correction;
+  return corrected(correction);
 }
 
 std::vector<ScaleMeasurement> Scale::measure(const MapLengths& map, const Levelling& first,

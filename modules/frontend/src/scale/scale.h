@@ -195,6 +195,8 @@ class Scale {
                                                         const Levelling& first,
                                                         double focal_px) const;
   [[nodiscard]] std::optional<ScaleMeasurement> by_speed();
+  /// A correction that the filter has taken, with how sure the map is after it.
+  [[nodiscard]] ScaleCorrection corrected(ScaleCorrection correction);
 
   LengthSource metres_;     ///< where the map's metres come from; kNone: from nowhere
   double given_height_;     ///< [m] of the camera above the road; 0: not given
