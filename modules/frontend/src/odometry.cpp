@@ -176,6 +176,7 @@ FrameResult Odometry::integrate(const FrameStamp& now, TwoView seen, const RoadP
   if (!turn_gate_.allows(seen.pose.R, before.time_s, now.time_s)) {
     seen = refused(std::move(seen), last_motion_);
   }
+  attitude_.see(seen);
   StepInTime in_time = step_in_time(before, now, seen, road, last_motion_);
   const auto rest = scale_.rest_by_road(road, seen, attitude_.now(), heading(), in_time);
   if (rest) {

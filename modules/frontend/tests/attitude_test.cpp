@@ -48,6 +48,34 @@ TEST(Attitude, TakesGravityThatWasFeltBeforeTheFirstFrame) {
   EXPECT_NEAR(std::abs(attitude.mounting().tilt.pitch_up), 2.0 * kDegree, 0.3 * kDegree);
 }
 
+TEST(Attitude, IsLevelledByTheFirstWayBeforeItsLengthIsAsked) {
+  Attitude attitude(given(0.0));
+  attitude.start(Eigen::Matrix3d::Identity());
+  TwoView seen;
+  seen.status = StepStatus::kOk;
+  seen.pose = ahead(7.0 * kDegree).pose;
+  attitude.see(seen);
+  const Eigen::Vector3d down = attitude.now().R_level_cam.row(1);
+  EXPECT_NEAR(tilt_from_down(down).pitch_up, 7.0 * kDegree, 0.5 * kDegree);
+  EXPECT_LT(attitude.now().pitch_sigma, 0.6 * kDegree);
+}
+
+TEST(Attitude, IsNotLevelledByARestOrByALaterWay) {
+  Attitude attitude(given(0.0));
+  attitude.start(Eigen::Matrix3d::Identity());
+  TwoView seen;
+  seen.status = StepStatus::kNoMotion;
+  attitude.see(seen);
+  EXPECT_GT(attitude.now().pitch_sigma, 0.9 * kDegree);
+  seen.status = StepStatus::kOk;
+  seen.pose = ahead(0.0).pose;
+  attitude.see(seen);
+  const Levelling first = attitude.now();
+  seen.pose = ahead(7.0 * kDegree).pose;
+  attitude.see(seen);
+  EXPECT_TRUE(attitude.now().R_level_cam.isApprox(first.R_level_cam));
+}
+
 TEST(Attitude, LearnsTheMountingAndLeavesTheSpringsTheRest) {
   Attitude attitude(given(3.0));
   attitude.start(Eigen::Matrix3d::Identity());

@@ -42,8 +42,25 @@ TEST(TiltEstimator, LearnsTheSameFromBacking) {
 
 TEST(TiltEstimator, TrustsTheGivenTiltAtFirst) {
   TiltEstimator estimator({0.0, 0.0}, {});
-  estimator.add_step(step_of(5.0 * kDegree, 0.5));
-  EXPECT_LT(estimator.tilt().pitch_up, 0.6 * kDegree);
+  estimator.add_step(step_of(0.5 * kDegree, 0.5));
+  EXPECT_LT(estimator.tilt().pitch_up, 0.1 * kDegree);
+}
+
+TEST(TiltEstimator, LetsGoOfAGivenTiltThatTheDriveContradicts) {
+  TiltEstimator estimator({0.0, 0.0}, {});
+  SceneGenerator scene(62);
+  for (int i = 1; i <= 100; ++i) {
+    estimator.add_step(step_of(7.0 * kDegree + scene.normal(0.3 * kDegree), 0.5));
+    const double off = std::abs(estimator.tilt().pitch_up - 7.0 * kDegree);
+    EXPECT_LT(off, 3.0 * estimator.belief().pitch_sigma) << "after " << i << " steps";
+    EXPECT_TRUE(i < 5 || off < 0.5 * kDegree) << "after " << i << " steps";
+  }
+}
+
+TEST(TiltEstimator, IsNoSurerThanWhatItHoldsBackForTheGivenTilt) {
+  TiltEstimator estimator({1.5 * kDegree, 0.0}, {});
+  for (int i = 0; i < 5; ++i) estimator.add_step(step_of(0.0, 0.5));
+  EXPECT_LT(std::abs(estimator.tilt().pitch_up), 1.5 * estimator.belief().pitch_sigma);
 }
 
 TEST(TiltEstimator, IgnoresManoeuvresStandsAndAbsurdDirections) {

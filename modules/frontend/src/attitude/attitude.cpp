@@ -49,6 +49,16 @@ Tilt Attitude::given() const {
           log.roll_right + trust * wrapped_angle(felt.roll_right - log.roll_right)};
 }
 
+void Attitude::see(const TwoView& seen) {
+  if (!mounting_ || has_seen_) return;
+  const auto travel = travel_in_first_view(seen);
+  if (!travel) return;
+  has_seen_ = true;
+  TiltEstimator first = *mounting_;  // the step itself comes with follow()
+  first.add_step(seen.pose);
+  road_->begin(*travel, first.belief());
+}
+
 void Attitude::follow(const StepResult& step) {
   if (!mounting_) return;
   if (step.status == StepStatus::kPredicted) {

@@ -2,6 +2,7 @@
 
 #include "gravity_estimator.h"
 #include "levelling.h"
+#include "two_view/two_view.h"
 
 #include "oneac/frontend/frame_result.h"
 #include "oneac/frontend/suspension_tilt.h"
@@ -24,6 +25,9 @@ class Attitude {
   void start(const Eigen::Matrix3d& R_vehicle_cam);
   /// For the tilt source "imu"; may come before the first frame.
   void add_inertial(const InertialReading& reading);
+  /// The first step that moves shows how the camera leans before its length is asked of the road: a
+  /// pitch that nobody told is often degrees off.
+  void see(const TwoView& seen);
   /// Learns from a step, which ends at the newest frame from then on.
   void follow(const StepResult& step);
 
@@ -51,6 +55,7 @@ class Attitude {
   GravityEstimator gravity_;
   std::optional<TiltEstimator> mounting_;  ///< from the first frame on
   std::optional<SuspensionTilt> road_;     ///< from the first frame on
+  bool has_seen_ = false;                  ///< a step that moves
 };
 
 }  // namespace oneac

@@ -58,6 +58,11 @@ Tilt SuspensionTilt::tilt_before(const Eigen::Matrix3d& R_now_before) const {
   return tilt_from_down(R_now_before.transpose() * road_normal(tilt_));
 }
 
+void SuspensionTilt::begin(const TiltStep::Travel& travel, const TiltBelief& mounting) {
+  lose(mounting);
+  measure_travel(travel, mounting);
+}
+
 void SuspensionTilt::add_step(const TiltStep& step, const TiltBelief& mounting) {
   if (!step.R_2_1.allFinite()) return;
   turn(step);

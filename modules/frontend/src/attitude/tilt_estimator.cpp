@@ -29,6 +29,8 @@ constexpr double kLeastPitching = 0.1 * kDegree;
 constexpr std::size_t kTurns = 1000;
 // [rad] least scatter of the direction of travel from step to step: what the images resolve.
 constexpr double kLeastScatter = 0.2 * kDegree;
+// [rad] 1σ of the first step, which shows one state of the springs; they swing within a few steps.
+constexpr double kFirstSteps = 1.0 * kDegree;
 // [σ] a turn whose roll is farther off than this weighs little.
 constexpr double kRollCut = 3.0;
 constexpr int kRollIterations = 5;
@@ -95,9 +97,18 @@ double TiltEstimator::pitch_correction(double& sigma) const {
   for (const double elevation : elevations) off.push_back(std::abs(elevation - middle));
   const double scatter = std::max(kMadToSigma * upper_median(std::move(off)), kLeastScatter);
   const double count = static_cast<double>(elevations.size());
-  sigma = 1.0 / std::sqrt(count / (scatter * scatter) + 1.0 / (prior * prior));
-  const double trust = unknown_ ? 1.0 : count / (count + options_.prior_steps);
+  const double trust = unknown_ ? 1.0 : count / (count + worth_of_given(middle));
+  const double variance = scatter * scatter / count + kFirstSteps * kFirstSteps / (count * count);
+  sigma =
+      std::hypot(1.0 / std::sqrt(1.0 / variance + 1.0 / (prior * prior)), (1.0 - trust) * middle);
   return trust * middle;
+}
+
+/// [steps] What is given is off by a degree; what the drive contradicts by more is a blunder, or
+/// nobody said anything (Cauchy's law).
+double TiltEstimator::worth_of_given(double off) const {
+  const double scaled = off / kGivenSigma;
+  return options_.prior_steps / (1.0 + scaled * scaled);
 }
 
 double TiltEstimator::roll_correction(double& sigma) const {

@@ -15,6 +15,11 @@ constexpr double kHeave = 0.033;
 // [m/s] speed of a drive whose metres are not known, in town.
 constexpr double kUsualSpeed = 8.0;
 
+/// [rad] 1σ of a way's elevation against the road.
+double elevation_sigma(double speed) {
+  return std::hypot(kDirection, kHeave / speed);
+}
+
 }  // namespace
 
 TiltStep tilt_step(const StepResult& step) {
@@ -27,9 +32,18 @@ TiltStep tilt_step(const StepResult& step) {
   result.length = speed * result.seconds;
   if (!(speed > 0.0)) return result;
   const double squared_length = step.pose.t.squaredNorm();
-  result.travel = {step.pose.t.normalized(), std::hypot(kDirection, kHeave / speed),
+  result.travel = {step.pose.t.normalized(), elevation_sigma(speed),
                    step.covariance.bottomRightCorner<3, 3>() / squared_length};
   return result;
+}
+
+std::optional<TiltStep::Travel> travel_in_first_view(const TwoView& seen) {
+  if (seen.status != StepStatus::kOk || !(seen.pose.t.norm() > 0.0)) return std::nullopt;
+  const Eigen::Matrix3d R_1_2 = seen.pose.R.transpose();
+  const Eigen::Matrix3d covariance =
+      seen.covariance.bottomRightCorner<3, 3>() / seen.pose.t.squaredNorm();
+  return TiltStep::Travel{R_1_2 * seen.pose.t.normalized(), elevation_sigma(kUsualSpeed),
+                          R_1_2 * covariance * R_1_2.transpose()};
 }
 
 }  // namespace oneac

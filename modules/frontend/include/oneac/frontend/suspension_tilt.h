@@ -10,7 +10,7 @@ namespace oneac {
 
 /// What one step of the camera says about its tilt against the road.
 struct TiltStep {
-  /// Where the camera went, in its second view, unit length; either way along it.
+  /// Where the camera went, in its newest view, unit length; either way along it.
   struct Travel {
     Eigen::Vector3d direction;
     double sigma = 0.0;  ///< [rad] 1σ of the way's elevation against the road
@@ -37,6 +37,8 @@ class SuspensionTilt {
   /// @param mounting  tilt of the camera on the level vehicle
   explicit SuspensionTilt(const TiltBelief& mounting);
 
+  /// The way that leads on from the newest frame, before anything was driven.
+  void begin(const TiltStep::Travel& travel, const TiltBelief& mounting);
   /// @param mounting  as believed now
   void add_step(const TiltStep& step, const TiltBelief& mounting);
   /// A step that the images did not tell about: the springs are at rest again, more or less.

@@ -13,12 +13,13 @@ namespace oneac {
 /// The rotation that levels the camera: a given tilt, corrected by the drive.
 ///
 /// Pitch: a vehicle travels along its road, so in a levelled camera the translation has no vertical
-/// part; the median of its elevation over the recent steps is the error of the given pitch.
-/// Roll: a vehicle turns about its upright, so over a bend the rotation of a levelled camera has no
-/// part about its axis; least squares of the roll's share against the yaw's, held by the given
-/// roll, over a longer past, since bends are rare. What the springs pitch is its noise, taken from
-/// the drive. On straight roads the given roll stays. With source "drive" there is nothing given:
-/// the first steps set the pitch.
+/// part; the median of its elevation over the recent steps is the error of the given pitch, which
+/// is worth some steps of driving, and less the more the drive contradicts it. Roll: a vehicle
+/// turns about its upright, so over a bend the rotation of a levelled camera has no part about its
+/// axis; least squares of the roll's share against the yaw's, held by the given roll, over a longer
+/// past, since bends are rare. What the springs pitch is its noise, taken from the drive. On
+/// straight roads the given roll stays. With source "drive" there is nothing given: the first steps
+/// set the pitch.
 class TiltEstimator {
  public:
   /// @param given  [rad] to start from; with source "drive" only a place to look near
@@ -39,6 +40,7 @@ class TiltEstimator {
  private:
   void update();
   [[nodiscard]] double pitch_correction(double& sigma) const;
+  [[nodiscard]] double worth_of_given(double off) const;
   [[nodiscard]] double roll_correction(double& sigma) const;
 
   Tilt given_;
