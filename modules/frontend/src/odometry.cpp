@@ -171,24 +171,15 @@ FrameResult Odometry::advance(const CameraFrame& frame, TrackedPair pair, const 
   return result;
 }
 
-FrameResult Odometry::integrate(const FrameStamp& now, TwoView seen, const RoadPair& road) {
+FrameResult Odometry::integrate(const FrameStamp& now, TwoView found, const RoadPair& road) {
   const FrameStamp before = std::exchange(newest_, now);
-  if (!turn_gate_.allows(seen.pose.R, before.time_s, now.time_s)) {
-    seen = refused(std::move(seen), last_motion_);
-  }
-  attitude_.see(seen);
-  StepInTime in_time = step_in_time(before, now, seen, road, last_motion_);
-  const auto rest = scale_.rest_by_road(road, seen, attitude_.now(), heading(), in_time);
-  if (rest) {
-    seen = resting(std::move(seen));
-    in_time.rests(seen.status, share_of_inliers(seen));
-  }
+  auto [seen, in_time] = believed(before, now, std::move(found), road);
   const MapLink link = map_.link(seen);
   if (link.began_anew) scale_.restart(before.time_s);
-  in_time.direct =
-      rest && rest->in_metres
-          ? rest
-          : scale_.measure_directly(road, seen, link.carried, attitude_.now(), heading(), in_time);
+  if (!in_time.direct) {
+    in_time.direct =
+        scale_.measure_directly(road, seen, link.carried, attitude_.now(), heading(), in_time);
+  }
   const auto begun = begin_scale(in_time, link.carried);
   // The map, which was measured by this very step, cannot confirm it.
   const auto told = begun ? std::vector<LengthMeasurement>{}
@@ -204,12 +195,31 @@ FrameResult Odometry::integrate(const FrameStamp& now, TwoView seen, const RoadP
   return result;
 }
 
+Odometry::SeenInTime Odometry::believed(const FrameStamp& before, const FrameStamp& now,
+                                        TwoView seen, const RoadPair& road) {
+  if (!turn_gate_.allows(seen.pose.R, before.time_s, now.time_s)) {
+    seen = refused(std::move(seen), last_motion_);
+  }
+  attitude_.see(seen);
+  StepInTime in_time = step_in_time(before, now, seen, road, last_motion_);
+  const auto rest = scale_.rest_by_road(road, seen, attitude_.now(), heading(), in_time);
+  if (rest) {
+    seen = resting(std::move(seen));
+    in_time.rests(seen.status, share_of_inliers(seen));
+    if (rest->in_metres) in_time.direct = rest;
+  } else if (!is_on_wheels(seen)) {
+    seen = refused(std::move(seen), last_motion_);
+    in_time.status = seen.status;
+  }
+  return {std::move(seen), std::move(in_time)};
+}
+
 StepLength Odometry::length_of(const StepInTime& step, const TwoView& seen,
                                const std::vector<LengthMeasurement>& told) {
   setup_.follow(seen, attitude_.now().R_level_cam);
   const StepLength length = setup_.checked_after(scale_.length_of(step, told));
   if (seen.status == StepStatus::kOk && length.length > kTellingWay) {
-    course_.follow(seen.pose.t.normalized());
+    course_.follow(seen.pose.t.normalized(), seen.kept_on_course);
   }
   return length;
 }
@@ -239,6 +249,10 @@ std::optional<ScaleCorrection> Odometry::scale_correction(const std::optional<Ma
   if (!lengths) return std::nullopt;
   return setup_.checked(
       scale_.correct(*lengths, attitude_.before(lengths->newest.T_2_1.R), focal_px));
+}
+
+bool Odometry::is_on_wheels(const TwoView& seen) const {
+  return seen.status != StepStatus::kOk || is_drivable(seen.pose.t, course_.now(straight_ahead()));
 }
 
 Eigen::Vector3d Odometry::heading() const {

@@ -62,6 +62,15 @@ class Odometry {
   [[nodiscard]] FrameResult moved(const FrameStamp& now, const TwoView& seen,
                                   const StepResult& step);
   [[nodiscard]] MotionPrior motion_prior(double end_s) const;
+  struct SeenInTime {
+    TwoView seen;
+    StepInTime in_time;
+  };
+  /// What two views told, or a rest where the road says so; refused where no car does it.
+  [[nodiscard]] SeenInTime believed(const FrameStamp& before, const FrameStamp& now, TwoView seen,
+                                    const RoadPair& road);
+  /// Whether the car's wheels can take the direction that two views told.
+  [[nodiscard]] bool is_on_wheels(const TwoView& seen) const;
   /// t̂ of a camera that goes on as it did.
   [[nodiscard]] Eigen::Vector3d heading() const;
   /// t̂ of a camera that travels as it is mounted.

@@ -106,6 +106,32 @@ TEST(BasinChoice, LeavesADirectionNearTheCourseAndOneInReverse) {
   EXPECT_EQ(choose(back, {kAhead.t, 0.05}).pose.t, back.pose.t);
 }
 
+/// Most of the picture is somebody who crosses; the rest is road.
+TrackedPair crossed() {
+  SceneGenerator random(13);
+  const RelativePose crosses{Eigen::Matrix3d::Identity(), {1.0, 0.0, 0.0}};
+  TrackedPair pair;
+  for (int i = 0; i < 300; ++i) {
+    const Eigen::Vector2d bus(random.uniform(-0.5, 0.5), random.uniform(-0.5, 0.1));
+    add(crosses, {Eigen::Vector3d::UnitZ(), 8.0}, bus, 0.05, random, pair);
+    const Eigen::Vector2d road(random.uniform(-0.5, 0.5), random.uniform(0.15, 0.5));
+    if (i < 100) add(kAhead, {Eigen::Vector3d::UnitY(), 1.5}, road, 0.05, random, pair);
+  }
+  return pair;
+}
+
+TEST(BasinChoice, NoNumberOfPointsMakesACarGoSideways) {
+  const TwoView seen = choose(found(crossed(), {1.0, 0.0, 0.0}), {kAhead.t, 0.05, true});
+  EXPECT_LT(direction_error(seen.pose.t, kAhead.t), 10.0 * kDegree);
+  EXPECT_TRUE(seen.kept_on_course);
+}
+
+TEST(BasinChoice, AMountDoesNotForbidASidewaysCamera) {
+  const TwoView seen = choose(found(crossed(), {1.0, 0.0, 0.0}), {kAhead.t, 0.15, false});
+  EXPECT_LT(direction_error(seen.pose.t, {1.0, 0.0, 0.0}), 10.0 * kDegree);
+  EXPECT_FALSE(seen.kept_on_course);
+}
+
 TEST(CourseBelief, GoesByTheMountUntilThreeStepsAreSeen) {
   CourseBelief course;
   course.follow({0.0, 0.1, -0.99});
@@ -122,6 +148,18 @@ TEST(CourseBelief, IsNotTurnedByFewWrongSteps) {
   }
   const Course now = course.now({1.0, 0.0, 0.0});
   EXPECT_LT(direction_error(now.direction, {0.01, 0.0, -1.0}), 0.1 * kDegree);
+}
+
+TEST(CourseBelief, BeginsAnewWhereTheImagesContradictItForLong) {
+  const Eigen::Vector3d wrong(0.0, 0.0, -1.0), mount(1.0, 0.0, 0.0);
+  CourseBelief course;
+  for (int i = 0; i < 9; ++i) course.follow(wrong);
+  for (int i = 0; i < 5; ++i) course.follow(wrong, true);
+  EXPECT_TRUE(course.now(mount).seen);
+  course.follow(wrong);
+  for (int i = 0; i < 20 && course.now(mount).seen; ++i) course.follow(wrong, true);
+  EXPECT_FALSE(course.now(mount).seen);
+  EXPECT_EQ(course.now(mount).direction, mount);
 }
 
 TEST(CourseBelief, KnowsNothingOfStepsThatContradictEachOther) {

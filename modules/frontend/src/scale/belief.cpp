@@ -50,7 +50,8 @@ bool speaks_for_rest(const ExpectedLength& expected) {
 /// before the car may be a truck then that moves off as it does.
 bool may_follow(const TwoView& seen, const Eigen::Vector3d& heading,
                 const ExpectedLength& expected) {
-  return !speaks_for_rest(expected) && direction_error(seen.pose.t, heading) < kAlong;
+  if (seen.kept_on_course || speaks_for_rest(expected)) return false;
+  return direction_error(seen.pose.t, heading) < kAlong;
 }
 
 /// Whether a car of which this is expected may have come to rest.

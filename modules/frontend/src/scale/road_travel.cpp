@@ -3,6 +3,7 @@
 #include "attitude/mainly_forward.h"
 #include "scale/room.h"
 #include "two_view/below_the_sky.h"
+#include "two_view/course.h"
 
 #include <algorithm>
 #include <cmath>

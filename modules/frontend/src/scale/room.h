@@ -3,9 +3,6 @@
 #include "oneac/geometry/relative_pose.h"
 #include "oneac/solvers/span.h"
 
-#include <Eigen/Core>
-
-#include <cmath>
 #include <vector>
 
 namespace oneac {
@@ -16,14 +13,6 @@ namespace oneac {
 /// @param inliers  one per correspondence
 [[nodiscard]] double room_beside(AcSpan acs, const std::vector<bool>& inliers,
                                  const RelativePose& T_2_1);
-
-/// Whether a step goes where wheels take a car that went along `heading`, forwards or backwards: a
-/// wrong basin of two views may lie anywhere, and no length along it is one of the car.
-/// @param t, heading  of T_2_1, of any length
-[[nodiscard]] inline bool goes_along(const Eigen::Vector3d& t, const Eigen::Vector3d& heading) {
-  constexpr double kCos45 = 0.7071;  // a front corner of a car that turns on the spot
-  return std::abs(t.dot(heading)) >= kCos45 * t.norm() * heading.norm();
-}
 
 /// Whether a car fits through what is seen at a scale. A bonnet rests in the picture as a road at
 /// rest does; who takes it for the road has a scene that fits into a shoe box. The road itself is

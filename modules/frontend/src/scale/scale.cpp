@@ -3,6 +3,7 @@
 #include "depth_scale.h"
 #include "room.h"
 #include "stereo_travel.h"
+#include "two_view/course.h"
 
 #include "oneac/frontend/front_end_options.h"
 #include "oneac/frontend/step_metres.h"

@@ -23,6 +23,8 @@ constexpr double kSurprising = 2.0;  // [σ] nearer to the course there is one b
 constexpr double kFarthest = 2.1;
 // −log of how seldom a car leaves its course at once: a kerb, a skid; one step in three thousand.
 constexpr double kMostSurprise = 8.0;
+// And of a direction that no wheels take, whatever the number of points that want it.
+constexpr double kImpossible = 1e9;
 
 /// A pose with its negative log-likelihood.
 struct Basin {
@@ -32,6 +34,7 @@ struct Basin {
 };
 
 double surprise(const Eigen::Vector3d& t, const Course& course) {
+  if (!is_drivable(t, course)) return kImpossible;
   const double off = direction_error(t, course.direction) / course.sigma;
   return std::min(0.5 * off * off, kMostSurprise);
 }
@@ -92,13 +95,15 @@ TwoView in_likelier_basin(TwoView found, const std::vector<bool>& told, const Co
                           const RefineOptions& refine, double threshold_px) {
   if (found.status != StepStatus::kOk || !(course.sigma > 0.0)) return found;
   const double off = direction_error(found.pose.t, course.direction);
-  if (off < kSurprising * course.sigma || off > kFarthest) return found;
+  const bool as_usual = off < kSurprising * course.sigma || off > kFarthest;
+  if (as_usual && is_drivable(found.pose.t, course)) return found;
   const std::vector<AffineCorrespondence> acs = affine_parts(found.pair);
   const RefineResult here = refine_two_view(acs, told, found.pose, found.focal_px, refine);
   const RefineResult there =
       refine_two_view(acs, told, {found.pose.R, course.direction}, found.focal_px, refine,
                       {course.direction, course.sigma});
   if (!here.usable() || !there.usable()) return found;
+  found.kept_on_course = !is_drivable(here.pose.t, course);
   return of_two(basin_of(here, surprise(here.pose.t, course)), basin_of(there, 0.0),
                 std::move(found), acs, told, threshold_px);
 }

@@ -12,7 +12,8 @@ namespace oneac {
 /// the vehicle's course. A pair whose direction is no surprise is returned as it is. Else both are
 /// refined over those to go by, the second with the course as prior, and the posterior of the two
 /// decides, with costs as negative log-likelihoods. The covariance is that of the mixture, so that
-/// a choice which is not sure says so.
+/// a choice which is not sure says so. A direction that no wheels take is out of the question,
+/// however many points want it: far ones, and those of who crosses, do.
 /// @param told  those to go by, one per correspondence
 /// @param threshold_px  of the inliers of a pose that is changed
 [[nodiscard]] TwoView in_likelier_basin(TwoView found, const std::vector<bool>& told,
