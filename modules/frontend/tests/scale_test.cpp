@@ -496,9 +496,34 @@ TEST(Scale, FarLandmarksThatATurnMayHaveShiftedYieldToTheRoad) {
   const StepLength together = scale.length_of(next, {far});
   EXPECT_TRUE(together.metric);
   EXPECT_EQ(together.source, LengthSource::kRoadImage);
-  EXPECT_LT(together.length, 0.97);
+  EXPECT_LT(together.length, 0.98);
   Scale sure = mapped();
   EXPECT_NEAR(sure.length_of(next, {carried(1.0)}).length, 1.0, 1e-9) << "near ones do not";
+}
+
+/// Landmarks on a car ahead shrank a few per cent a step, and the mean carried the speed along.
+TEST(Scale, TheMeanOfTwoThatDisagreeIsLessSure) {
+  const auto beside_road = [](double by_map) {
+    StepInTime next = step(StepStatus::kOk, 10.1, 1.0);
+    next.direct = MeasuredTravel{1.0, 0.06, LengthSource::kRoadImage, true};
+    LengthMeasurement unsure = carried(by_map);
+    unsure.sigma = 0.04;
+    Scale scale = mapped();
+    return scale.length_of(next, {unsure});
+  };
+  ASSERT_TRUE(beside_road(0.98).metric);
+  EXPECT_GT(beside_road(0.82).sigma_m, 1.3 * beside_road(0.98).sigma_m);
+}
+
+TEST(Scale, InertiaThatDisagreesDoesNotMakeALengthSurer) {
+  const auto helped = [](double by_map) {
+    LengthMeasurement unsure = carried(by_map);
+    unsure.sigma = 0.06;
+    Scale scale = mapped();
+    return scale.length_of(step(StepStatus::kOk, 10.1, 1.0), {unsure});
+  };
+  ASSERT_TRUE(helped(0.98).metric);
+  EXPECT_GT(helped(0.82).sigma_m, 1.2 * helped(0.98).sigma_m);
 }
 
 TEST(Scale, InertiaHelpsALengthThatIsTooUnsureToBeMetric) {

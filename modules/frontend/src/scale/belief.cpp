@@ -28,6 +28,13 @@ constexpr double kMost = 0.5;  // [-] share of the points
 // [rad] of a direction that is the car's, not that of somebody who crosses.
 constexpr double kAlong = 15.0 * kDegree;
 
+/// By how much two lengths disagree beyond their σ (Birge's ratio, not less than 1): their mean is
+/// so much less sure.
+double birge_ratio(const StepLength& a, const StepLength& b) {
+  const double sigma = std::hypot(a.sigma_m, b.sigma_m);
+  return sigma > 0.0 ? std::max(1.0, std::abs(a.length - b.length) / sigma) : 1.0;
+}
+
 /// Weighted mean, under the name of the surer; errors that the two share (the road's plane, the
 /// height) do not average out, so it is no surer than the surer one.
 StepLength mean_of(const StepLength& a, const StepLength& b) {
@@ -35,6 +42,7 @@ StepLength mean_of(const StepLength& a, const StepLength& b) {
   const double wa = 1.0 / (a.sigma_m * a.sigma_m), wb = 1.0 / (b.sigma_m * b.sigma_m);
   if (!std::isfinite(wa) || !std::isfinite(wb) || !(wa + wb > 0.0)) return result;
   result.length = (wa * a.length + wb * b.length) / (wa + wb);
+  result.sigma_m *= birge_ratio(a, b);
   if (result.length > 0.0) result.sigma = result.sigma_m / result.length;
   result.landmarks = std::max(a.landmarks, b.landmarks);
   result.ground_acs = std::max(a.ground_acs, b.ground_acs);
@@ -211,6 +219,7 @@ StepLength Scale::steadied(const StepLength& told, const ExpectedLength& expecte
   result.without_inertia = MeasuredTravel{told.length, told.sigma_m, told.source, true};
   result.length = mean_of(told, inertia).length;
   result.sigma_m = told.sigma_m * inertia.sigma_m / std::hypot(told.sigma_m, inertia.sigma_m);
+  result.sigma_m *= birge_ratio(told, inertia);
   result.sigma = result.sigma_m / std::max(result.length, kStillness);
   return result;
 }
@@ -241,9 +250,9 @@ StepLength Scale::at_rest(const StepInTime& step) const {
   // While no speed is known, a bonnet rests as a road at rest does: before anything has moved the
   // car stands; afterwards that is known only where the car is.
   const bool may_be_the_car = !expected && moved_ && !step.car_is_known;
-  // Of a car that drove a moment ago most of the picture has to rest: a few points do by chance,
+  // Unless the car stood a moment ago most of the picture has to rest: a few points do by chance,
   // like the edges of the blocks of a compressed picture.
-  const bool few_rest = moved_ && step.resting < kMost && !(expected && speaks_for_rest(*expected));
+  const bool few_rest = step.resting < kMost && !(expected && speaks_for_rest(*expected));
   if (const auto& told = step.direct) {
     const bool moves = told->length > std::max(kStillness, kMoves * told->sigma);
     if (moves && told->in_metres) {
