@@ -43,6 +43,7 @@ StepTime ShutterClock::between(double seconds) const {
 Inertia::Inertia(const ScaleOptions& options, double memory_s)
     : acceleration_(options.acceleration),
       max_acceleration_(options.max_acceleration),
+      shared_(options.road_uncertainty),
       memory_s_(memory_s) {}
 
 std::optional<ExpectedLength> Inertia::expect(double begin_s, double end_s) const {
@@ -71,7 +72,8 @@ void Inertia::tell(double begin_s, double end_s, double length, double sigma) {
     const double prior = std::hypot(sigma_, acceleration_ * (middle - time_s_));
     const double gain = prior * prior / (prior * prior + noise * noise);
     speed_ += gain * (measured - speed_);
-    sigma_ = std::sqrt(gain) * noise;
+    // Steps in a row share the errors of the road's height, which do not average out.
+    sigma_ = std::max(std::sqrt(gain) * noise, shared_ * speed_);
   } else {
     speed_ = measured;
     sigma_ = noise;

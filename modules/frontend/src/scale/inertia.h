@@ -59,7 +59,9 @@ class Inertia {
 
  private:
   ShutterClock clock_;
-  double acceleration_, max_acceleration_, memory_s_;
+  double acceleration_, max_acceleration_;
+  double shared_;  ///< [-] 1σ that all lengths have in common
+  double memory_s_;
   bool known_ = false;
   double speed_ = 0.0;   ///< [m/s]
   double sigma_ = 0.0;   ///< [m/s] 1σ

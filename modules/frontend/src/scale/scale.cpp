@@ -92,8 +92,8 @@ std::optional<MeasuredTravel> Scale::measure_directly(
   const StepLength by_map = carried ? stated(*carried) : StepLength{};
   const bool unsure = !by_map.metric || by_map.sigma > kSure * allowed_sigma(by_map.length);
   const auto expected = inertia_.expect(step.begin_s, step.end_s);
-  // Inertia is judged by what does not know it.
-  const bool surprises = carried && is_against(by_map, expected);
+  // Inertia is judged by what does not know it, and so is one that nobody has confirmed for long.
+  const bool surprises = (carried && is_against(by_map, expected)) || held_ >= kPatience;
   const bool needed =
       unsure || surprises || needs_road_image_ || conflicts_ > 0 || stamps_are_wrong();
   const bool due = ++unchecked_ >= kCheckEvery;
@@ -196,6 +196,7 @@ double Scale::Carried::variance() const {
 void Scale::remember(const StepInTime& step, const StepLength& length) {
   inertia_.tick(step.begin_s, step.end_s);
   if (length.beside_stamps) ++beside_stamps_;
+  held_ = length.source == LengthSource::kHeld ? held_ + 1 : 0;
   if (step.status == StepStatus::kOk) moved_ = true;
   const bool measured = length.metric && length.source != LengthSource::kHeld;
   doubted_ = !measured && (doubted_ || length.refused);

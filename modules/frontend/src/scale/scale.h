@@ -217,6 +217,7 @@ class Scale {
   int unchecked_ = 0;             ///< steps since the road's grey values were asked
   int conflicts_ = 0;             ///< steps in a row in which road and map disagreed
   int contradicted_ = 0;          ///< steps in a row in which nobody agreed with inertia
+  int held_ = 0;                  ///< steps in a row that inertia alone told
   int beside_stamps_ = 0;  ///< steps in which two others agreed on what inertia does not allow
   double camera_doubt_ = 0.0;
   double road_uncertainty_;  ///< [-] 1σ of the height above the road ahead
