@@ -409,6 +409,8 @@ NASTIER = {
     'glare': glare, 'vignette': vignette, 'dead-pixels': dead_pixels, 'interlaced': interlaced,
     'rolled-shutter': rolled_shutter, 'potholes': potholes, 'focal+10%': focal(1.1),
     'focal-3%': focal(0.97), 'pitch+5-down': turned([-5, 0, 0]), 'upside-down': turned([0, 0, 180]),
+    'pitch-15': turned([15, 0, 0]), 'roll-6-pitch-6': turned([6, 0, 6]),
+    'yaw-10-pitch-8': turned([8, 10, 0]),
 }
 
 
