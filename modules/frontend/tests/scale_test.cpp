@@ -203,6 +203,18 @@ TEST(Scale, ARestOfAFewPointsIsNotMetricUnlessTheCarStoodBefore) {
   EXPECT_TRUE(rest_of(0.9, false).metric);
   EXPECT_FALSE(rest_of(0.1, false).metric) << "edges of compressed blocks rest by chance";
   EXPECT_TRUE(rest_of(0.1, true).metric) << "a bus passes";
+  EXPECT_FALSE(rest_of(0.03, true).metric) << "nor does a bus hide everything";
+}
+
+TEST(Scale, ACarOfWhichNothingIsKnownRestsOnlyIfNearlyAllPointsDo) {
+  const auto rest_of = [](double share) {
+    StepInTime resting = rest(MeasuredTravel{0.001, 0.004, LengthSource::kRoadImage, true});
+    resting.resting = share;
+    Scale scale = started(by("height"));
+    return scale.length_of(resting, {});
+  };
+  EXPECT_TRUE(rest_of(0.9).metric);
+  EXPECT_FALSE(rest_of(0.55).metric) << "clouds";
 }
 
 TEST(Scale, ARestSeenThroughDirtIsNotMetric) {

@@ -24,7 +24,9 @@ constexpr double kAgree = 2.0;
 constexpr double kStillness = 0.02;
 // [m or heights] a rest that is known no better than this says nothing in metres.
 constexpr double kSureRest = 0.05;
-constexpr double kMost = 0.5;  // [-] share of the points
+// [-] share of the points that has to rest: of a car that stood (a bus may fill the picture, and a
+// tenth rests by chance), that drove, and of which nothing is known (under clouds half of them do).
+constexpr double kFew = 0.1, kMost = 0.5, kNearlyAll = 0.8;
 // [rad] of a direction that is the car's, not that of somebody who crosses.
 constexpr double kAlong = 15.0 * kDegree;
 
@@ -52,6 +54,11 @@ StepLength mean_of(const StepLength& a, const StepLength& b) {
 /// Whether the car stood a moment ago.
 bool speaks_for_rest(const ExpectedLength& expected) {
   return expected.length <= kStillness && expected.sigma <= kSureRest;
+}
+
+double least_share_at_rest(bool speed_is_known, bool stood) {
+  if (stood) return kFew;
+  return speed_is_known ? kMost : kNearlyAll;
 }
 
 /// Whether two views show a way along wheels, and inertia does not speak for a rest: what rests
@@ -252,7 +259,8 @@ StepLength Scale::at_rest(const StepInTime& step) const {
   const bool may_be_the_car = !expected && moved_ && !step.car_is_known;
   // Unless the car stood a moment ago most of the picture has to rest: a few points do by chance,
   // like the edges of the blocks of a compressed picture.
-  const bool few_rest = step.resting < kMost && !(expected && speaks_for_rest(*expected));
+  const bool stood = expected && speaks_for_rest(*expected);
+  const bool few_rest = step.resting < least_share_at_rest(expected.has_value(), stood);
   if (const auto& told = step.direct) {
     const bool moves = told->length > std::max(kStillness, kMoves * told->sigma);
     if (moves && told->in_metres) {
