@@ -30,8 +30,9 @@ Correspondence correspondence_of(const KltTrack& track, const PatchMatch& match)
 
 }  // namespace
 
-KltTracker::KltTracker(const FeatureOptions& options)
+KltTracker::KltTracker(const FeatureOptions& options, std::shared_ptr<Workers> workers)
     : options_(options),
+      workers_(std::move(workers)),
       mask_(options.mask),
       rematcher_(options),
       static_points_(options.klt.static_frames) {}
@@ -107,10 +108,11 @@ TrackedPair KltTracker::stand(const KltFrame& now) {
 
 KltTracker::Matches KltTracker::follow(const std::shared_ptr<const KltFrame>& now,
                                        const MotionPrediction& motion) {
-  Matches matches = search_tracks(tracks_, anchor_->pyramid, now->pyramid, motion, options_.klt);
+  const FlowImages images{anchor_->pyramid, now->pyramid, motion, options_.klt, *workers_};
+  Matches matches = search_tracks(tracks_, images);
   if (!is_broken(matches, *now)) return matches;
   add_rematches(now, matches);
-  search_lost_tracks(tracks_, anchor_->pyramid, now->pyramid, motion, options_.klt, matches);
+  search_lost_tracks(tracks_, images, matches);
   return matches;
 }
 
@@ -142,12 +144,13 @@ void KltTracker::add_rematches(const std::shared_ptr<const KltFrame>& now, Match
 TrackedPair KltTracker::take(const KltFrame& now, const MotionPrediction& motion,
                              const Matches& matches) {
   static_points_.begin_pair(frame_, median_flow(tracks_, matches));
+  const std::vector<char> hold = which_hold(now, matches);
   TrackedPair pair;
   std::vector<KltTrack> kept;
   PointBins taken(now.pyramid.width(), now.pyramid.height(), options_.klt.min_distance_px);
   for (std::size_t i = 0; i < tracks_.size(); ++i) {
     KltTrack& track = tracks_[i];
-    if (!matches[i] || !holds(track, now, *matches[i])) continue;
+    if (!hold[i] || !usable(now, matches[i]->warp.centre)) continue;
     const Eigen::Vector2d& u2 = matches[i]->warp.centre;
     const bool by_place = options_.mask.learn && car_mask_.must_move(track.u);
     const bool rests = static_points_.rests(track, u2 - track.u, motion, by_place);
@@ -170,8 +173,15 @@ TrackedPair KltTracker::take(const KltFrame& now, const MotionPrediction& motion
   return pair;
 }
 
+std::vector<char> KltTracker::which_hold(const KltFrame& now, const Matches& matches) {
+  std::vector<char> hold(tracks_.size(), 0);
+  workers_->share(tracks_.size(), [&](std::size_t i, std::size_t) {
+    hold[i] = matches[i] && holds(tracks_[i], now, *matches[i]) ? 1 : 0;
+  });
+  return hold;
+}
+
 bool KltTracker::holds(KltTrack& track, const KltFrame& now, const PatchMatch& match) const {
-  if (!usable(now, match.warp.centre)) return false;
   track.A_now_reference = match.warp.M * track.A_now_reference;
   track.reference_is_here = false;
   const double scale = std::sqrt(std::abs(track.A_now_reference.determinant()));
@@ -194,44 +204,61 @@ bool KltTracker::usable(const KltFrame& frame, const Eigen::Vector2d& u) const {
   return mask_.usable(u) && car_mask_.usable(u) && usable_in(frame.mask, u);
 }
 
-void KltTracker::start_track(const KltFrame& now, const Corner& corner) {
-  KltTrack track;
-  track.reference = std::make_unique<AnchoredPatch>();
-  const std::size_t window = window_for_corner(corner.score);
-  if (!anchor_adapted(now.pyramid, corner.u, *track.reference, window)) return;
-  track.id = next_id_++;
-  track.u = corner.u;
-  track.reference_is_here = true;
-  tracks_.push_back(std::move(track));
+void KltTracker::start_tracks(const KltFrame& now, const std::vector<Corner>& corners) {
+  std::vector<std::unique_ptr<AnchoredPatch>> patches(corners.size());
+  workers_->share(corners.size(), [&](std::size_t i, std::size_t) {
+    auto patch = std::make_unique<AnchoredPatch>();
+    const std::size_t window = window_for_corner(corners[i].score);
+    if (anchor_adapted(now.pyramid, corners[i].u, *patch, window)) patches[i] = std::move(patch);
+  });
+  for (std::size_t i = 0; i < corners.size(); ++i) {
+    if (!patches[i]) continue;
+    KltTrack track;
+    track.id = next_id_++;
+    track.u = corners[i].u;
+    track.reference = std::move(patches[i]);
+    track.reference_is_here = true;
+    tracks_.push_back(std::move(track));
+  }
+}
+
+std::vector<Corner> KltTracker::offers(const KltFrame& now, const Occupancy& taken,
+                                       int round) const {
+  std::vector<Corner> offers;
+  for (std::size_t cell = 0; cell < taken.in_cell.size(); ++cell) {
+    if (taken.in_cell[cell] >= round || static_points_.is_blocked(cell)) continue;
+    for (const Corner& corner : now.corners.cells[cell]) {
+      const bool is_free = taken.points.is_free(corner.u, options_.klt.min_distance_px);
+      if (!is_free || !car_mask_.usable(corner.u)) continue;
+      offers.push_back(corner);
+      break;
+    }
+  }
+  std::stable_sort(offers.begin(), offers.end(),
+                   [](const Corner& a, const Corner& b) { return a.score > b.score; });
+  return offers;
 }
 
 void KltTracker::replenish(const KltFrame& now) {
   const auto limit = static_cast<std::size_t>(options_.klt.max_tracks);
   const double distance = options_.klt.min_distance_px;
-  PointBins taken(now.pyramid.width(), now.pyramid.height(), distance);
-  std::vector<int> in_cell(now.corners.cells.size(), 0);
-  for (const KltTrack& track : tracks_) {
-    taken.add(track.u);
-    ++in_cell[cell_of(now, track.u)];
-  }
+  Occupancy taken{{now.pyramid.width(), now.pyramid.height(), distance},
+                  std::vector<int>(now.corners.cells.size(), 0)};
+  const auto take_place = [&](const Eigen::Vector2d& u) {
+    taken.points.add(u);
+    ++taken.in_cell[cell_of(now, u)];
+  };
+  for (const KltTrack& track : tracks_) take_place(track.u);
   for (int round = 1; round <= kRounds && tracks_.size() < limit; ++round) {
-    std::vector<Corner> offers;  // at most one per cell and round
-    for (std::size_t cell = 0; cell < in_cell.size(); ++cell) {
-      if (in_cell[cell] >= round || static_points_.is_blocked(cell)) continue;
-      for (const Corner& corner : now.corners.cells[cell]) {
-        if (!taken.is_free(corner.u, distance) || !car_mask_.usable(corner.u)) continue;
-        offers.push_back(corner);
-        break;
+    const std::vector<Corner> offered = offers(now, taken, round);
+    for (auto offer = offered.begin(); offer != offered.end() && tracks_.size() < limit;) {
+      std::vector<Corner> starting;  // as many as there is room for, should each be followed
+      for (; offer != offered.end() && tracks_.size() + starting.size() < limit; ++offer) {
+        if (!taken.points.is_free(offer->u, distance)) continue;
+        take_place(offer->u);
+        starting.push_back(*offer);
       }
-    }
-    std::stable_sort(offers.begin(), offers.end(),
-                     [](const Corner& a, const Corner& b) { return a.score > b.score; });
-    for (const Corner& corner : offers) {
-      if (tracks_.size() >= limit) break;
-      if (!taken.is_free(corner.u, distance)) continue;
-      taken.add(corner.u);
-      ++in_cell[cell_of(now, corner.u)];
-      start_track(now, corner);
+      start_tracks(now, starting);
     }
   }
 }
