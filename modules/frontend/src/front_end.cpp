@@ -94,6 +94,7 @@ FrameResult FrontEnd::process(PreparedFrame prepared) {
     const StageTimer timer(features_ms, workers_.get());
     road = {previous_road_, road_image(prepared.features, frame.image.view()), frame.camera, {}};
     correspondences_ = tracker_->advance(std::move(prepared.features), hint());
+    road.workers = workers_.get();
     road.mask = tracker_->unused();
     road.car_is_known = tracker_->knows_car();
     road.shows_travel = tracker_->shows_travel();
