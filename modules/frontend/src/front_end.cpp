@@ -65,7 +65,7 @@ FrontEnd::FrontEnd(const FrontEndOptions& options, int threads)
   tracker_ = make_tracker(options_.features, workers_);
   const RelativePoseInitialiser::Ptr initialiser = make_initialiser(options_.initialiser);
   initialiser->configure(initialiser_yaml(options_));
-  odometry_ = std::make_unique<Odometry>(options_, initialiser);
+  odometry_ = std::make_unique<Odometry>(options_, initialiser, workers_.get());
   learner_ = std::make_unique<CameraLearner>(options_.self_calibration);
 }
 

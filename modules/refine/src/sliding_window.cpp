@@ -5,6 +5,7 @@
 
 #include "oneac/base/check_bounds.h"
 #include "oneac/base/require.h"
+#include "oneac/base/workers.h"
 
 #include <ceres/solver.h>
 
@@ -56,13 +57,16 @@ void WindowRefineOptions::validate() const {
   check_bounds("window", *this);
 }
 
-WindowRefineResult refine_window(SlidingWindow& window, const WindowRefineOptions& options) {
+WindowRefineResult refine_window(SlidingWindow& window, const WindowRefineOptions& options,
+                                 Workers* workers) {
   options.validate();
   require_consistent(window);
   // Points move without the affinities: those are looked at once, at the end.
   if (options.affine_terms()) static_cast<void>(fit_patches(window, options));
+  Workers alone;
   WindowRefineResult result = options.solver == "fast"
-                                  ? adjust_points(window, options, {kFunctionTolerance, kSmallStep})
+                                  ? adjust_points(window, options, {kFunctionTolerance, kSmallStep},
+                                                  workers != nullptr ? *workers : alone)
                                   : adjust_with_ceres(window, options);
   result.affine_consistent = fit_patches(window, options);
   return result;

@@ -53,9 +53,9 @@ struct Trust {
 }  // namespace
 
 WindowRefineResult adjust_points(SlidingWindow& window, const WindowRefineOptions& options,
-                                 const AdjustmentEnds& ends) {
+                                 const AdjustmentEnds& ends, Workers& workers) {
   WindowRefineResult result;
-  WindowEquations equations(window, options);
+  WindowEquations equations(window, options, workers);
   if (equations.empty()) return result;
   WindowState state = state_of(window);
   const auto start = equations.cost(state);

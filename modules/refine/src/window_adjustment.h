@@ -1,5 +1,6 @@
 #pragma once
 
+#include "oneac/base/workers.h"
 #include "oneac/refine/sliding_window.h"
 
 namespace oneac {
@@ -15,6 +16,6 @@ struct AdjustmentEnds {
 /// Source of the damping: Nielsen, Damping Parameter in Marquardt's Method, 1999.
 [[nodiscard]] WindowRefineResult adjust_points(SlidingWindow& window,
                                                const WindowRefineOptions& options,
-                                               const AdjustmentEnds& ends);
+                                               const AdjustmentEnds& ends, Workers& workers);
 
 }  // namespace oneac

@@ -11,6 +11,8 @@
 
 namespace oneac {
 
+class Workers;
+
 /// Sliding-window bundle adjustment. validate() throws std::invalid_argument.
 struct WindowRefineOptions {
   double point_noise_px = 0.2;     ///< [px] 1σ of a tracked point where the track does not say
@@ -104,10 +106,13 @@ struct WindowRefineResult {
 /// With one, scale is left to the damping of the optimiser: it stays near the start. An observation
 /// is affine-consistent when its A agrees within its noise with the affinity that poses and patch
 /// induce; patches get their gradient by least squares over all their affinities. Landmarks are
-/// eliminated (Schur); with affine terms Ceres does it. One thread, no clock: deterministic.
+/// eliminated (Schur); with affine terms Ceres does it. No clock: deterministic.
+/// @param workers  who shares the work, without affine terms; none: the calling thread alone. The
+///                 result is the same to the last bit
 /// @throws std::invalid_argument on invalid options or an index out of range
 [[nodiscard]] WindowRefineResult refine_window(SlidingWindow& window,
-                                               const WindowRefineOptions& options);
+                                               const WindowRefineOptions& options,
+                                               Workers* workers = nullptr);
 
 /// Least squares for the gradients of all patches from the affinities of their observations, and
 /// the flags affine_consistent. Linear, closed form. Returns the number of consistent observations.
