@@ -39,11 +39,12 @@ struct WindowStep {
 /// each block is summed over the landmarks in their order, so that every sum is that of one thread.
 class WindowEquations {
  public:
-  WindowEquations(const SlidingWindow& window, const WindowRefineOptions& options,
-                  Workers& workers);
+  explicit WindowEquations(Workers& workers) : workers_(workers) {}
   WindowEquations(const WindowEquations&) = delete;
   WindowEquations& operator=(const WindowEquations&) = delete;
 
+  /// Takes a window, in the memory of the one before: a window's megabytes are asked for once.
+  void set(const SlidingWindow& window, const WindowRefineOptions& options);
   /// No landmark is seen by two views.
   [[nodiscard]] bool empty() const { return rows_.empty(); }
   /// ½ Σ ρ(|r|²); empty when a point is behind a view that sees it, or not finite.
@@ -122,11 +123,12 @@ class WindowEquations {
   [[nodiscard]] Eigen::MatrixXd reduced_matrix() const;
   [[nodiscard]] Eigen::VectorXd reduced_right_side() const;
 
-  std::size_t views_;
-  double c2_;                      ///< squared scale of the loss
+  std::size_t views_ = 0;
+  double c2_ = 0.0;                ///< squared scale of the loss
   std::vector<std::size_t> free_;  ///< per view its index among the free ones; kNone when fixed
   std::size_t free_views_ = 0;
   std::vector<Landmark> landmarks_;
+  Grouped<std::size_t> seen_by_;  ///< observations by landmark
   std::vector<Row> rows_;
   std::vector<internal::WindowLink> links_;
   std::vector<Prior> priors_;

@@ -10,11 +10,15 @@ namespace oneac {
 using internal::block_at;
 using internal::PoseDerivative;
 
-WindowEquations::WindowEquations(const SlidingWindow& window, const WindowRefineOptions& options,
-                                 Workers& workers)
-    : views_(window.views.size()),
-      c2_(options.loss_sigmas * options.loss_sigmas),
-      workers_(workers) {
+void WindowEquations::set(const SlidingWindow& window, const WindowRefineOptions& options) {
+  views_ = window.views.size();
+  c2_ = options.loss_sigmas * options.loss_sigmas;
+  landmarks_.assign(window.landmarks.size(), {});
+  rows_.clear();
+  links_.clear();
+  priors_.clear();
+  derivatives_.clear();
+  couplings_.clear();
   add_columns(window);
   add_rows(window, options);
   add_priors(window, options);
@@ -24,6 +28,8 @@ WindowEquations::WindowEquations(const SlidingWindow& window, const WindowRefine
 }
 
 void WindowEquations::add_columns(const SlidingWindow& window) {
+  free_.clear();
+  free_views_ = 0;
   for (const WindowView& view : window.views) {
     free_.push_back(view.fixed ? kNone : free_views_++);
   }
@@ -35,20 +41,16 @@ void WindowEquations::add_rows(const SlidingWindow& window, const WindowRefineOp
   workers_.share(count, [&](std::size_t i, std::size_t) {
     in_front[i] = is_in_front(window, window.observations[i]) ? 1 : 0;
   });
-  Grouped<std::size_t> seen_by;  // observations by landmark
-  seen_by.reserve(count);
-  for (std::size_t i = 0; i < count; ++i) seen_by.add(window.observations[i].landmark, i);
-  seen_by.sort(window.landmarks.size());
-  rows_.reserve(count);
-  links_.reserve(count + window.landmarks.size());
-  landmarks_.resize(window.landmarks.size());
+  seen_by_.clear();
+  for (std::size_t i = 0; i < count; ++i) seen_by_.add(window.observations[i].landmark, i);
+  seen_by_.sort(window.landmarks.size());
   for (std::size_t i = 0; i < landmarks_.size(); ++i) {
     Landmark& landmark = landmarks_[i];
     landmark.anchor = window.landmarks[i].anchor;
     landmark.first_row = rows_.size();
     landmark.first_link = landmark.last_link = links_.size();
     bool second_view = false;
-    for (const std::size_t* k = seen_by.begin(i); k != seen_by.end(i); ++k) {
+    for (const std::size_t* k = seen_by_.begin(i); k != seen_by_.end(i); ++k) {
       const WindowObservation& seen = window.observations[*k];
       if (in_front[*k] == 0) continue;
       second_view = second_view || seen.view != landmark.anchor;
@@ -83,6 +85,7 @@ void WindowEquations::add_priors(const SlidingWindow& window, const WindowRefine
 }
 
 void WindowEquations::add_blocks() {
+  blocks_.clear();
   for (std::size_t row = 0; row < free_views_; ++row) {
     for (std::size_t column = 0; column <= row; ++column) blocks_.push_back({row, column});
   }

@@ -3,6 +3,7 @@
 #include "window_problem.h"
 #include "window_scenes.h"
 
+#include <algorithm>
 #include <cstddef>
 
 namespace oneac::test {
@@ -33,7 +34,8 @@ SlidingWindow spoilt_window(std::uint64_t seed) {
 WindowRefineResult adjusted(SlidingWindow& window, const WindowRefineOptions& options,
                             const AdjustmentEnds& ends, int threads = 1) {
   Workers workers(threads);
-  return adjust_points(window, options, ends, workers);
+  WindowEquations equations(workers);
+  return adjust_points(window, options, ends, equations);
 }
 
 TEST(WindowAdjustment, MeetsTheMinimumThatCeresFinds) {
@@ -102,6 +104,26 @@ TEST(WindowAdjustment, GivesTheSameBytesAtAnyThreadCount) {
     for (std::size_t i = 0; i < alone.landmarks.size(); ++i) {
       EXPECT_EQ(shared.landmarks[i].inverse_depth, alone.landmarks[i].inverse_depth) << i;
     }
+  }
+}
+
+TEST(WindowAdjustment, LeavesNothingBehindForTheNextWindow) {
+  Workers workers(2);
+  WindowEquations used(workers);
+  SlidingWindow before = spoilt_window(98), alone = spoilt_window(99);
+  alone.landmarks.resize(60);
+  alone.observations.erase(
+      std::remove_if(alone.observations.begin(), alone.observations.end(),
+                     [](const WindowObservation& seen) { return seen.landmark >= 60; }),
+      alone.observations.end());
+  SlidingWindow after = alone;
+  static_cast<void>(adjust_points(before, patient(), kAtTheEnd, used));
+  const WindowRefineResult second = adjust_points(after, patient(), kAtTheEnd, used);
+  const WindowRefineResult first = adjusted(alone, patient(), kAtTheEnd);
+  ASSERT_TRUE(first.usable);
+  EXPECT_EQ(second.final_cost, first.final_cost);
+  for (std::size_t i = 0; i < alone.views.size(); ++i) {
+    EXPECT_EQ(after.views[i].T_view_map.t, alone.views[i].T_view_map.t) << "view " << i;
   }
 }
 

@@ -95,7 +95,7 @@ class LocalMap {
   WindowOptions options_;
   double focal_px_;
   double sigma_;  ///< [-] of a point whose track does not say
-  Workers* workers_;
+  WindowRefiner refiner_;
   std::size_t next_id_ = 0;
   std::optional<std::size_t> newest_is_keyframe_;  ///< id, when the newest frame is one
   std::size_t tracks_of_last_ = 0;                 ///< alive when the last keyframe was made
