@@ -101,7 +101,7 @@ void add_calibrate(CLI::App& program) {
   verb->add_option("--set", flags->settings, "section.key=value, any key of params/default.yaml")
       ->allow_extra_args(false);
   add_selection(*verb, flags->settings);
-  add_key(*verb, "--threads", "run.threads", flags->settings, "images prepared at once");
+  add_key(*verb, "--threads", "run.threads", flags->settings, "threads that share a drive");
   verb->add_flag("--no-progress", flags->no_progress, "no progress bar");
   verb->callback([flags] { run(*flags); });
 }

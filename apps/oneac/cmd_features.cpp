@@ -95,7 +95,7 @@ void add_features(CLI::App& program) {
       ->allow_extra_args(false);
   verb->add_option("--picture-every", flags->picture_every, "draw the tracks of every K-th pair");
   add_selection(*verb, flags->settings);
-  add_key(*verb, "--threads", "run.threads", flags->settings, "images prepared at once");
+  add_key(*verb, "--threads", "run.threads", flags->settings, "threads that share a drive");
   verb->add_flag("--no-progress", flags->no_progress, "no progress bar");
   verb->callback([flags] { run(*flags); });
 }

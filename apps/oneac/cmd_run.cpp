@@ -122,7 +122,7 @@ void add_run(CLI::App& program) {
           "metres of the lens above the road; without it the log's, if it tells one");
   add_key(*verb, "--reference", "run.reference", flags->settings, "true poses, KITTI or TUM");
   add_key(*verb, "--seed", "run.seed", flags->settings, "seed of methods that draw random numbers");
-  add_key(*verb, "--threads", "run.threads", flags->settings, "images prepared at once");
+  add_key(*verb, "--threads", "run.threads", flags->settings, "threads that share a drive");
   verb->add_flag_callback(
       "--georeference", [flags] { flags->settings.emplace_back("run.georeference=true"); },
       "write trajectory_enu.tum as well: the vehicle's way in the frame of the log's GPS");

@@ -95,12 +95,16 @@ TEST_F(RunVerb, EdgesOfTheGraphAreAsUncertainAsTheirPairs) {
 
 TEST_F(RunVerb, GivesTheSameBytesAtAnyThreadCount) {
   const fs::path one = run("one", {"--threads", "1"});
-  const fs::path four = run("four", {"--threads", "4"});
-  for (const char* name : {"trajectory_camera.kitti", "trajectory_camera.tum",
-                           "trajectory_vehicle.tum", "relative_poses.csv", "params.yaml"}) {
-    EXPECT_EQ(read_file(one / name), read_file(four / name)) << name;
+  for (const char* threads : {"2", "4", "8"}) {
+    const fs::path more = run(threads, {"--threads", threads});
+    for (const char* name :
+         {"trajectory_camera.kitti", "trajectory_camera.tum", "trajectory_camera.csv",
+          "trajectory_vehicle.tum", "relative_poses.csv", "covariance.csv", "keyframes.tum",
+          "graph.g2o", "points.ply", "params.yaml"}) {
+      EXPECT_EQ(read_file(one / name), read_file(more / name)) << name << ", " << threads;
+    }
+    EXPECT_EQ(summary_without_timing(one), summary_without_timing(more)) << threads;
   }
-  EXPECT_EQ(summary_without_timing(one), summary_without_timing(four));
 }
 
 TEST_F(RunVerb, CountsIndicesInTheLogBeforeThinning) {

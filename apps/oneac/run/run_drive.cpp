@@ -76,14 +76,15 @@ class SpeedFeeder {
   std::size_t next_ = 0;
 };
 
-/// The loop of a drive: images in order of time, prepared on worker threads, then processed.
+/// The loop of a drive: images in order of time, prepared ahead on threads of their own, then
+/// processed by this one and its helpers.
 class Drive {
  public:
   Drive(const RunOptions& options, const RunObserver& observer)
       : options_(options),
         observer_(observer),
         source_(source_options(options)),
-        front_end_(front_end_options(options)),
+        front_end_(front_end_options(options), options.run.threads),
         sensors_(read_ahead(options)),
         progress_(options.run.progress && !options.run.quiet, "frames") {
     feed_accelerations();

@@ -44,7 +44,7 @@ void describe(Visitor&& visit, RunParameters& o) {
   visit("loops", o.loops, "bool", "close loops, and write what comes of it beside the rest");
   visit("global_ba", o.global_ba, "bool",
         "with loops: adjust keyframes and patches of the closed drive together");
-  visit("threads", o.threads, "count", "images prepared at once; changes no result");
+  visit("threads", o.threads, "count", "threads that share a drive; changes no result");
   visit("progress", o.progress, "bool", "progress bar on a terminal");
   visit("quiet", o.quiet, "bool", "no notes and warnings");
 }

@@ -40,7 +40,7 @@ struct RunParameters {
   bool georeference = false;  ///< the way in the frame of the GPS, too
   bool loops = false;         ///< look for places seen again and close the drive by them
   bool global_ba = false;     ///< then adjust keyframes and patches of the closed drive together
-  int threads = 2;            ///< images prepared at once
+  int threads = 2;            ///< that share a drive
   bool progress = true;
   bool quiet = false;
 };

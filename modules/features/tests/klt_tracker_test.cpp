@@ -2,6 +2,7 @@
 #include "track_numbers.h"
 
 #include "oneac/base/error.h"
+#include "oneac/base/workers.h"
 #include "oneac/features/ac_tracker.h"
 #include "oneac/features/feature_options.h"
 #include "oneac/test_support/temporary_folder.h"
@@ -13,6 +14,7 @@
 #include <filesystem>
 #include <future>
 #include <map>
+#include <memory>
 #include <set>
 #include <stdexcept>
 #include <vector>
@@ -126,6 +128,29 @@ TEST(KltTracker, NeverUsesATrackNumberTwice) {
       }
     }
     places = now;
+  }
+}
+
+/// A drive with room for new tracks, tracks that are lost and a jump that SIFT has to bridge.
+std::vector<TrackedPair> pairs_of_a_drive(int threads) {
+  const Texture texture(13);
+  const auto tracker = make_tracker(klt(), std::make_shared<Workers>(threads));
+  std::vector<TrackedPair> pairs;
+  for (int frame = 0; frame <= 5; ++frame) {
+    pairs.push_back(feed(*tracker, render(texture, drive(frame < 4 ? frame : frame + 40))));
+  }
+  return pairs;
+}
+
+TEST(KltTracker, GivesTheSameBytesAtAnyThreadCount) {
+  const std::vector<TrackedPair> alone = pairs_of_a_drive(1);
+  ASSERT_GT(alone[1].size(), 300U);
+  ASSERT_GT(alone[5].size(), 100U) << "goes on behind the jump";
+  for (const int threads : {2, 4, 8}) {
+    const std::vector<TrackedPair> shared = pairs_of_a_drive(threads);
+    for (std::size_t i = 0; i < alone.size(); ++i) {
+      EXPECT_TRUE(same_bytes(alone[i], shared[i])) << threads << " threads, frame " << i;
+    }
   }
 }
 

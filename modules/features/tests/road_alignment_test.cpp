@@ -2,6 +2,7 @@
 
 #include "texture.h"
 
+#include "oneac/base/workers.h"
 #include "oneac/geometry/levelling.h"
 
 #include <gtest/gtest.h>
@@ -280,6 +281,25 @@ TEST(RoadAlignment, SaysThatThereIsNoRoadWhenAllIsMasked) {
   const Drive drive{asphalt(13)};
   const GreyImage mask(640, 360, 0);
   EXPECT_EQ(drive.align(drive.step(), mask.view()).status, RoadStatus::kNoRoad);
+}
+
+TEST(RoadAlignment, GivesTheSameBytesAtAnyThreadCount) {
+  const Drive drive{asphalt(15)};
+  const GreyImage first = drive.view(false), second = drive.view(true);
+  const auto align = [&](int threads) {
+    Workers workers(threads);
+    return align_road(RoadImage(first.view()), RoadImage(second.view()), camera_of_road(),
+                      drive.step(), {}, {}, &workers);
+  };
+  const RoadAlignment alone = align(1);
+  ASSERT_EQ(alone.status, RoadStatus::kMeasured);
+  for (const int threads : {2, 4, 8}) {
+    const RoadAlignment shared = align(threads);
+    EXPECT_EQ(shared.length, alone.length) << threads << " threads";
+    EXPECT_EQ(shared.sigma, alone.sigma);
+    EXPECT_EQ(shared.T_2_1.R, alone.T_2_1.R);
+    EXPECT_EQ(shared.rival, alone.rival);
+  }
 }
 
 TEST(RoadAlignment, RefusesMisuse) {

@@ -7,6 +7,7 @@
 
 #include "oneac/base/require.h"
 #include "oneac/base/thread_clock.h"
+#include "oneac/base/workers.h"
 
 #include <mrpt/containers/yaml.h>
 #include <mrpt/obs/CObservation.h>
@@ -52,18 +53,19 @@ const char* to_string(StepStatus status) {
   return "unknown";
 }
 
-FrontEnd::FrontEnd(const FrontEndOptions& options)
+FrontEnd::FrontEnd(const FrontEndOptions& options, int threads)
     : COutputLogger("oneac.FrontEnd"),
       options_(options),
       stereo_(options.scale.source == "stereo"),
       wheels_(options.scale.source == "wheels"),
+      workers_(std::make_shared<Workers>(threads)),
       intake_(intake_options(options)),
       profiler_(true, "", true) {
   options_.validate();
-  tracker_ = make_tracker(options_.features);
+  tracker_ = make_tracker(options_.features, workers_);
   const RelativePoseInitialiser::Ptr initialiser = make_initialiser(options_.initialiser);
   initialiser->configure(initialiser_yaml(options_));
-  odometry_ = std::make_unique<Odometry>(options_, initialiser);
+  odometry_ = std::make_unique<Odometry>(options_, initialiser, workers_.get());
   learner_ = std::make_unique<CameraLearner>(options_.self_calibration);
 }
 
@@ -89,9 +91,10 @@ FrameResult FrontEnd::process(PreparedFrame prepared) {
   TrackedPair pair;
   RoadPair road;
   {
-    const StageTimer timer(features_ms);
+    const StageTimer timer(features_ms, workers_.get());
     road = {previous_road_, road_image(prepared.features, frame.image.view()), frame.camera, {}};
     correspondences_ = tracker_->advance(std::move(prepared.features), hint());
+    road.workers = workers_.get();
     road.mask = tracker_->unused();
     road.car_is_known = tracker_->knows_car();
     road.shows_travel = tracker_->shows_travel();

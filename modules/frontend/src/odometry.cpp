@@ -137,11 +137,13 @@ FrameResult with_step(FrameResult result, StepResult step,
 
 }  // namespace
 
-Odometry::Odometry(const FrontEndOptions& options, RelativePoseInitialiser::Ptr initialiser)
-    : two_view_(options, std::move(initialiser)),
+Odometry::Odometry(const FrontEndOptions& options, RelativePoseInitialiser::Ptr initialiser,
+                   Workers* workers)
+    : workers_(workers),
+      two_view_(options, std::move(initialiser)),
       attitude_(options.tilt),
       scale_(options),
-      map_(options.window) {}
+      map_(options.window, workers) {}
 
 FrameResult Odometry::start(const CameraFrame& frame) {
   newest_ = stamp_of(frame);
@@ -162,7 +164,7 @@ FrameResult Odometry::advance(const CameraFrame& frame, TrackedPair pair, const 
   double map_ms = 0.0;
   FrameResult result;
   {
-    const StageTimer timer(map_ms);
+    const StageTimer timer(map_ms, workers_);
     result = integrate(stamp_of(frame), std::move(seen), road);
   }
   result.step->fault = std::move(fault);

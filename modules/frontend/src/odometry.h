@@ -17,11 +17,15 @@
 
 namespace oneac {
 
+class Workers;
+
 /// Correspondences in, poses out: everything of the front-end that does not look at pixels. Four
 /// rooms, each the one owner of its truth: two views, attitude, scale, map; docs/architecture.md.
 class Odometry {
  public:
-  Odometry(const FrontEndOptions& options, RelativePoseInitialiser::Ptr initialiser);
+  /// @param workers  who shares the work of a step, and outlives it; none: the calling thread alone
+  Odometry(const FrontEndOptions& options, RelativePoseInitialiser::Ptr initialiser,
+           Workers* workers = nullptr);
 
   /// The first frame; its image is not used.
   [[nodiscard]] FrameResult start(const CameraFrame& frame);
@@ -81,6 +85,7 @@ class Odometry {
   [[nodiscard]] std::optional<ScaleCorrection> scale_correction(
       const std::optional<MapLengths>& lengths, double focal_px);
 
+  Workers* workers_;
   TwoViewEstimator two_view_;
   TurnGate turn_gate_;
   CourseBelief course_;

@@ -194,6 +194,24 @@ TEST(FrontEnd, InstancesDoNotDisturbEachOther) {
   }
 }
 
+TEST(FrontEnd, GivesTheSameBytesAtAnyThreadCount) {
+  SimulationOptions longer = small_drive();
+  longer.frames = 10;
+  const StreetSimulator street(longer);
+  FrontEnd alone{FrontEndOptions{}};
+  const auto expected = drive(alone, street);
+  for (const int threads : {2, 4}) {
+    FrontEnd shared{FrontEndOptions{}, threads};
+    const auto results = drive(shared, street);
+    for (std::size_t i = 0; i < results.size(); ++i) {
+      EXPECT_EQ(results[i].T_first_cam.matrix(), expected[i].T_first_cam.matrix()) << i;
+      if (i == 0) continue;
+      EXPECT_EQ(results[i].step->length, expected[i].step->length) << i;
+      EXPECT_EQ(results[i].step->covariance, expected[i].step->covariance) << i;
+    }
+  }
+}
+
 TEST(FrontEnd, RefusesOptionsOutOfBoundsAndUnknownMethods) {
   FrontEndOptions options;
   options.camera_height = -1.0;

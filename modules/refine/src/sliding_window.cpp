@@ -5,10 +5,12 @@
 
 #include "oneac/base/check_bounds.h"
 #include "oneac/base/require.h"
+#include "oneac/base/workers.h"
 
 #include <ceres/solver.h>
 
 #include <cmath>
+#include <memory>
 #include <string>
 
 namespace oneac {
@@ -56,16 +58,34 @@ void WindowRefineOptions::validate() const {
   check_bounds("window", *this);
 }
 
-WindowRefineResult refine_window(SlidingWindow& window, const WindowRefineOptions& options) {
+struct WindowRefiner::Memory {
+  explicit Memory(Workers* workers) : equations(workers != nullptr ? *workers : alone) {}
+
+  Workers alone;
+  WindowEquations equations;
+};
+
+WindowRefiner::WindowRefiner(Workers* workers) : memory_(std::make_unique<Memory>(workers)) {}
+WindowRefiner::~WindowRefiner() = default;
+WindowRefiner::WindowRefiner(WindowRefiner&&) noexcept = default;
+WindowRefiner& WindowRefiner::operator=(WindowRefiner&&) noexcept = default;
+
+WindowRefineResult WindowRefiner::refine(SlidingWindow& window,
+                                         const WindowRefineOptions& options) {
   options.validate();
   require_consistent(window);
   // Points move without the affinities: those are looked at once, at the end.
   if (options.affine_terms()) static_cast<void>(fit_patches(window, options));
-  WindowRefineResult result = options.solver == "fast"
-                                  ? adjust_points(window, options, {kFunctionTolerance, kSmallStep})
-                                  : adjust_with_ceres(window, options);
+  WindowRefineResult result =
+      options.solver == "fast"
+          ? adjust_points(window, options, {kFunctionTolerance, kSmallStep}, memory_->equations)
+          : adjust_with_ceres(window, options);
   result.affine_consistent = fit_patches(window, options);
   return result;
+}
+
+WindowRefineResult refine_window(SlidingWindow& window, const WindowRefineOptions& options) {
+  return WindowRefiner().refine(window, options);
 }
 
 }  // namespace oneac

@@ -1,7 +1,5 @@
 #include "window_adjustment.h"
 
-#include "window_equations.h"
-
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -53,9 +51,9 @@ struct Trust {
 }  // namespace
 
 WindowRefineResult adjust_points(SlidingWindow& window, const WindowRefineOptions& options,
-                                 const AdjustmentEnds& ends) {
+                                 const AdjustmentEnds& ends, WindowEquations& equations) {
   WindowRefineResult result;
-  WindowEquations equations(window, options);
+  equations.set(window, options);
   if (equations.empty()) return result;
   WindowState state = state_of(window);
   const auto start = equations.cost(state);

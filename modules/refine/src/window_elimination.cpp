@@ -4,10 +4,16 @@
 #include <Eigen/Geometry>
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 
 namespace oneac {
 namespace {
+
+using internal::PoseSum;
+using internal::ReducedLandmark;
+using internal::simd_kernels;
+using internal::WindowKernels;
 
 // Where the equations say nothing the damping still needs something to hold on to.
 constexpr double kSmallestDiagonal = 1e-6;
@@ -18,21 +24,21 @@ double damp(double diagonal, double damping) {
 
 }  // namespace
 
-bool WindowEquations::eliminate(Landmark& landmark, double damping) {
+bool WindowEquations::reduce(std::size_t i, double damping) {
+  Landmark& landmark = landmarks_[i];
   Eigen::Matrix3d H = landmark.H;
-  for (int i = 0; i < 3; ++i) H(i, i) += damp(landmark.H(i, i), damping);
+  for (int k = 0; k < 3; ++k) H(k, k) += damp(landmark.H(k, k), damping);
   const Eigen::LLT<Eigen::Matrix3d> llt(H);
   if (llt.info() != Eigen::Success) return false;
   landmark.inverse_root = llt.matrixL().solve(Eigen::Matrix3d::Identity());
   const Eigen::Vector3d g = landmark.inverse_root * landmark.g;
-  internal::ReducedLandmark reduced{};
-  for (int i = 0; i < 3; ++i) {
-    reduced.g[i] = g(i);
-    for (int j = 0; j <= i; ++j) reduced.inverse_root[i][j] = landmark.inverse_root(i, j);
+  ReducedLandmark& reduced = reduced_[i];
+  for (int k = 0; k < 3; ++k) {
+    reduced.g[k] = g(k);
+    for (int j = 0; j <= k; ++j) reduced.inverse_root[k][j] = landmark.inverse_root(k, j);
   }
-  internal::simd_kernels<internal::WindowKernels>().eliminate(
-      reduced, links_.data() + landmark.first_link, links_.data() + landmark.last_link, S_.data(),
-      rhs_.data());
+  simd_kernels<WindowKernels>().reduce(reduced, links_.data() + landmark.first_link,
+                                       links_.data() + landmark.last_link);
   return true;
 }
 
@@ -66,10 +72,15 @@ std::optional<WindowStep> WindowEquations::solve(double damping) {
       S_[internal::block_at(i, i)].column[k][k] += damp(diagonal(i, k), damping);
     }
   }
-  for (Landmark& landmark : landmarks_) {
-    if (landmark.empty()) continue;
-    if (!eliminate(landmark, damping)) return std::nullopt;
-  }
+  std::atomic<bool> is_singular{false};
+  workers_.share(landmarks_.size(), [&](std::size_t i, std::size_t) {
+    if (!landmarks_[i].empty() && !reduce(i, damping)) is_singular = true;
+  });
+  if (is_singular) return std::nullopt;
+  workers_.share(blocks_.size(), [&](std::size_t i, std::size_t) {
+    PoseSum* const rhs = blocks_[i].is_diagonal() ? &rhs_[blocks_[i].row] : nullptr;
+    simd_kernels<WindowKernels>().take_pairs(couplings_.begin(i), couplings_.end(i), S_[i], rhs);
+  });
   const Eigen::MatrixXd S = reduced_matrix();
   const Eigen::LDLT<Eigen::MatrixXd, Eigen::Lower> ldlt(S);
   if (ldlt.info() != Eigen::Success || !ldlt.isPositive()) return std::nullopt;
@@ -91,23 +102,30 @@ WindowStep WindowEquations::back_substituted(const Eigen::VectorXd& poses, doubl
     }
   }
   step.points.assign(landmarks_.size(), Eigen::Vector3d::Zero());
+  workers_.share(landmarks_.size(), [&](std::size_t i, std::size_t) {
+    if (!landmarks_[i].empty()) step.points[i] = back_substituted(landmarks_[i], poses);
+  });
   for (std::size_t i = 0; i < landmarks_.size(); ++i) {
     const Landmark& landmark = landmarks_[i];
     if (landmark.empty()) continue;
-    Eigen::Vector3d left = landmark.inverse_root * landmark.g;
-    for (std::size_t k = landmark.first_link; k < landmark.last_link; ++k) {
-      const double* pose = step.poses.data() + 6 * links_[k].view;
-      for (int j = 0; j < 3; ++j) {
-        for (int c = 0; c < 6; ++c) left(j) += links_[k].reduced.row[j][c] * pose[c];
-      }
-    }
-    Eigen::Vector3d& d = step.points[i];
-    d = -(landmark.inverse_root.transpose() * left);
+    const Eigen::Vector3d& d = step.points[i];
     twice -= landmark.g.dot(d);
     for (int j = 0; j < 3; ++j) twice += damp(landmark.H(j, j), damping) * d(j) * d(j);
   }
   step.decrease = 0.5 * twice;
   return step;
+}
+
+Eigen::Vector3d WindowEquations::back_substituted(const Landmark& landmark,
+                                                  const Eigen::VectorXd& poses) const {
+  Eigen::Vector3d left = landmark.inverse_root * landmark.g;
+  for (std::size_t k = landmark.first_link; k < landmark.last_link; ++k) {
+    const double* pose = poses.data() + 6 * links_[k].view;
+    for (int j = 0; j < 3; ++j) {
+      for (int c = 0; c < 6; ++c) left(j) += links_[k].reduced.row[j][c] * pose[c];
+    }
+  }
+  return -(landmark.inverse_root.transpose() * left);
 }
 
 WindowState WindowEquations::moved(const WindowState& state, const WindowStep& step) const {

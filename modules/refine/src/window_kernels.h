@@ -48,6 +48,22 @@ struct ReducedLandmark {
   double g[3];
 };
 
+/// What an observation adds to a block of the poses' equations: lowerᵀ upper. On the diagonal both
+/// are one, and it adds upperᵀ r.
+struct DerivativePair {
+  const PoseDerivative* lower;
+  const PoseDerivative* upper;
+  const double* r;
+};
+
+/// What an eliminated landmark takes from a block: lowerᵀ upper. On the diagonal both are one, and
+/// it adds upperᵀ g to the right side.
+struct CouplingPair {
+  const CouplingSum* lower;
+  const CouplingSum* upper;
+  const double* g;
+};
+
 /// Place of a block on or below the diagonal, row by row.
 constexpr std::size_t block_at(std::size_t row, std::size_t column) {
   return row * (row + 1) / 2 + column;
@@ -56,14 +72,16 @@ constexpr std::size_t block_at(std::size_t row, std::size_t column) {
 /// The products that fill and reduce the equations of a window, compiled once per instruction set.
 /// Every entry is a sum in the same order at every level: the same bytes.
 struct WindowKernels {
-  /// H += Jᵀ J, g += Jᵀ r, W += (∂r/∂landmark)ᵀ J.
-  void (*add_view)(const PointRow& point, const PoseDerivative& J, PoseBlockSum& H, PoseSum& g,
-                   CouplingSum& W);
-  /// H += Aᵀ B.
-  void (*add_pair)(const PoseDerivative& A, const PoseDerivative& B, PoseBlockSum& H);
-  /// Sets `reduced` of the landmark's links; S −= reducedᵀ reduced, rhs += reducedᵀ g.
-  void (*eliminate)(const ReducedLandmark& landmark, WindowLink* first, WindowLink* last,
-                    PoseBlockSum* S, PoseSum* rhs);
+  /// W += (∂r/∂landmark)ᵀ J.
+  void (*add_coupling)(const PointRow& point, const PoseDerivative& J, CouplingSum& W);
+  /// H += lowerᵀ upper, g += upperᵀ r of each, in their order; without g: off the diagonal.
+  void (*add_pairs)(const DerivativePair* first, const DerivativePair* last, PoseBlockSum& H,
+                    PoseSum* g);
+  /// Sets `reduced` of the landmark's links.
+  void (*reduce)(const ReducedLandmark& landmark, WindowLink* first, WindowLink* last);
+  /// S −= lowerᵀ upper, rhs += upperᵀ g of each, in their order; without rhs: off the diagonal.
+  void (*take_pairs)(const CouplingPair* first, const CouplingPair* last, PoseBlockSum& S,
+                     PoseSum* rhs);
 };
 
 template <>

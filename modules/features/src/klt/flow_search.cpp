@@ -19,30 +19,32 @@ constexpr double kSameSurface = 30.0;  // [px]
 
 class TrackSearch {
  public:
-  TrackSearch(const std::vector<KltTrack>& tracks, const ImagePyramid& first,
-              const ImagePyramid& second, const MotionPrediction& motion, const KltOptions& options)
-      : flow_(first, second, options), tracks_(tracks), motion_(motion), matches_(tracks.size()) {}
+  TrackSearch(const std::vector<KltTrack>& tracks, const FlowImages& images)
+      : tracks_(tracks), motion_(images.motion), workers_(images.workers) {
+    flows_.reserve(workers_.count());
+    while (flows_.size() < workers_.count()) {
+      flows_.emplace_back(images.first, images.second, images.options);
+    }
+  }
 
   std::vector<std::optional<PatchMatch>> run() {
+    Matches matches(tracks_.size());
     for (const bool fresh : {false, true}) {
-      for (std::size_t i = 0; i < tracks_.size(); ++i) {
-        if ((tracks_[i].age == 0) != fresh) continue;
-        matches_[i] = flow_.find(tracks_[i].u, guesses(tracks_[i]), memory(tracks_[i]));
-      }
-      remember(matches_);  // neighbours of what follows: never of a result of the same round
+      const auto now = which([&](std::size_t i) { return (tracks_[i].age == 0) == fresh; });
+      find(now, matches, [this](const KltTrack& track) { return guesses(track); });
+      remember(matches);
     }
-    return again(std::move(matches_));
+    return again(std::move(matches));
   }
 
   std::vector<std::optional<PatchMatch>> again(std::vector<std::optional<PatchMatch>> matches) {
     remember(matches);
-    for (std::size_t i = 0; i < tracks_.size(); ++i) {
-      if (matches[i]) continue;
+    const auto lost = which([&](std::size_t i) { return !matches[i].has_value(); });
+    find(lost, matches, [this](const KltTrack& track) {
       std::vector<FlowGuess> second_try;
-      add_neighbours(tracks_[i], second_try);
-      if (second_try.empty()) continue;
-      matches[i] = flow_.find(tracks_[i].u, second_try, memory(tracks_[i]));
-    }
+      add_neighbours(track, second_try);
+      return second_try;
+    });
     return matches;
   }
 
@@ -52,7 +54,27 @@ class TrackSearch {
     PatchWarp warp;
   };
 
-  void remember(const std::vector<std::optional<PatchMatch>>& matches) {
+  using Matches = std::vector<std::optional<PatchMatch>>;
+
+  template <class Condition>
+  [[nodiscard]] std::vector<std::size_t> which(const Condition& condition) const {
+    std::vector<std::size_t> indices;
+    for (std::size_t i = 0; i < tracks_.size(); ++i) {
+      if (condition(i)) indices.push_back(i);
+    }
+    return indices;
+  }
+
+  /// Each from its guesses and from neighbours of earlier rounds, so that any order will do.
+  template <class Guesses>
+  void find(const std::vector<std::size_t>& indices, Matches& matches, const Guesses& guesses) {
+    workers_.share(indices.size(), [&](std::size_t k, std::size_t worker) {
+      const KltTrack& track = tracks_[indices[k]];
+      matches[indices[k]] = flows_[worker].find(track.u, guesses(track), memory(track));
+    });
+  }
+
+  void remember(const Matches& matches) {
     found_.clear();
     for (std::size_t i = 0; i < matches.size(); ++i) {
       if (matches[i]) found_.push_back({tracks_[i].u, matches[i]->warp});
@@ -110,28 +132,23 @@ class TrackSearch {
     }
   }
 
-  PatchFlow flow_;
+  std::vector<PatchFlow> flows_;  ///< one per worker: it has patches to work on
   const std::vector<KltTrack>& tracks_;
   const MotionPrediction& motion_;
-  std::vector<std::optional<PatchMatch>> matches_;
+  Workers& workers_;
   std::vector<Neighbour> found_;
 };
 
 }  // namespace
 
 std::vector<std::optional<PatchMatch>> search_tracks(const std::vector<KltTrack>& tracks,
-                                                     const ImagePyramid& first,
-                                                     const ImagePyramid& second,
-                                                     const MotionPrediction& motion,
-                                                     const KltOptions& options) {
-  return TrackSearch(tracks, first, second, motion, options).run();
+                                                     const FlowImages& images) {
+  return TrackSearch(tracks, images).run();
 }
 
-void search_lost_tracks(const std::vector<KltTrack>& tracks, const ImagePyramid& first,
-                        const ImagePyramid& second, const MotionPrediction& motion,
-                        const KltOptions& options,
+void search_lost_tracks(const std::vector<KltTrack>& tracks, const FlowImages& images,
                         std::vector<std::optional<PatchMatch>>& matches) {
-  matches = TrackSearch(tracks, first, second, motion, options).again(std::move(matches));
+  matches = TrackSearch(tracks, images).again(std::move(matches));
 }
 
 double median_flow(const std::vector<KltTrack>& tracks,

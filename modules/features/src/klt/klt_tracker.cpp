@@ -19,7 +19,6 @@ namespace {
 // The first patch is compared while the scale is within this factor; then the current one takes its
 // place. Beyond it resampling alone changes a patch.
 constexpr double kReferenceScale = 1.5;
-constexpr int kRounds = 4;      // corners per cell before the search for corners ends
 constexpr double kMerge = 0.5;  // tracks nearer than half the corners' distance are one
 // An image with fewer corners (dark, blank) has nothing that other features would find.
 constexpr std::size_t kLeastCorners = 50;
@@ -30,8 +29,9 @@ Correspondence correspondence_of(const KltTrack& track, const PatchMatch& match)
 
 }  // namespace
 
-KltTracker::KltTracker(const FeatureOptions& options)
+KltTracker::KltTracker(const FeatureOptions& options, std::shared_ptr<Workers> workers)
     : options_(options),
+      workers_(std::move(workers)),
       mask_(options.mask),
       rematcher_(options),
       static_points_(options.klt.static_frames) {}
@@ -107,10 +107,11 @@ TrackedPair KltTracker::stand(const KltFrame& now) {
 
 KltTracker::Matches KltTracker::follow(const std::shared_ptr<const KltFrame>& now,
                                        const MotionPrediction& motion) {
-  Matches matches = search_tracks(tracks_, anchor_->pyramid, now->pyramid, motion, options_.klt);
+  const FlowImages images{anchor_->pyramid, now->pyramid, motion, options_.klt, *workers_};
+  Matches matches = search_tracks(tracks_, images);
   if (!is_broken(matches, *now)) return matches;
   add_rematches(now, matches);
-  search_lost_tracks(tracks_, anchor_->pyramid, now->pyramid, motion, options_.klt, matches);
+  search_lost_tracks(tracks_, images, matches);
   return matches;
 }
 
@@ -142,12 +143,13 @@ void KltTracker::add_rematches(const std::shared_ptr<const KltFrame>& now, Match
 TrackedPair KltTracker::take(const KltFrame& now, const MotionPrediction& motion,
                              const Matches& matches) {
   static_points_.begin_pair(frame_, median_flow(tracks_, matches));
+  const std::vector<char> hold = which_hold(now, matches);
   TrackedPair pair;
   std::vector<KltTrack> kept;
   PointBins taken(now.pyramid.width(), now.pyramid.height(), options_.klt.min_distance_px);
   for (std::size_t i = 0; i < tracks_.size(); ++i) {
     KltTrack& track = tracks_[i];
-    if (!matches[i] || !holds(track, now, *matches[i])) continue;
+    if (!hold[i] || !usable(now, matches[i]->warp.centre)) continue;
     const Eigen::Vector2d& u2 = matches[i]->warp.centre;
     const bool by_place = options_.mask.learn && car_mask_.must_move(track.u);
     const bool rests = static_points_.rests(track, u2 - track.u, motion, by_place);
@@ -170,8 +172,15 @@ TrackedPair KltTracker::take(const KltFrame& now, const MotionPrediction& motion
   return pair;
 }
 
+std::vector<char> KltTracker::which_hold(const KltFrame& now, const Matches& matches) {
+  std::vector<char> hold(tracks_.size(), 0);
+  workers_->share(tracks_.size(), [&](std::size_t i, std::size_t) {
+    hold[i] = matches[i] && holds(tracks_[i], now, *matches[i]) ? 1 : 0;
+  });
+  return hold;
+}
+
 bool KltTracker::holds(KltTrack& track, const KltFrame& now, const PatchMatch& match) const {
-  if (!usable(now, match.warp.centre)) return false;
   track.A_now_reference = match.warp.M * track.A_now_reference;
   track.reference_is_here = false;
   const double scale = std::sqrt(std::abs(track.A_now_reference.determinant()));
@@ -192,48 +201,6 @@ bool KltTracker::holds(KltTrack& track, const KltFrame& now, const PatchMatch& m
 
 bool KltTracker::usable(const KltFrame& frame, const Eigen::Vector2d& u) const {
   return mask_.usable(u) && car_mask_.usable(u) && usable_in(frame.mask, u);
-}
-
-void KltTracker::start_track(const KltFrame& now, const Corner& corner) {
-  KltTrack track;
-  track.reference = std::make_unique<AnchoredPatch>();
-  const std::size_t window = window_for_corner(corner.score);
-  if (!anchor_adapted(now.pyramid, corner.u, *track.reference, window)) return;
-  track.id = next_id_++;
-  track.u = corner.u;
-  track.reference_is_here = true;
-  tracks_.push_back(std::move(track));
-}
-
-void KltTracker::replenish(const KltFrame& now) {
-  const auto limit = static_cast<std::size_t>(options_.klt.max_tracks);
-  const double distance = options_.klt.min_distance_px;
-  PointBins taken(now.pyramid.width(), now.pyramid.height(), distance);
-  std::vector<int> in_cell(now.corners.cells.size(), 0);
-  for (const KltTrack& track : tracks_) {
-    taken.add(track.u);
-    ++in_cell[cell_of(now, track.u)];
-  }
-  for (int round = 1; round <= kRounds && tracks_.size() < limit; ++round) {
-    std::vector<Corner> offers;  // at most one per cell and round
-    for (std::size_t cell = 0; cell < in_cell.size(); ++cell) {
-      if (in_cell[cell] >= round || static_points_.is_blocked(cell)) continue;
-      for (const Corner& corner : now.corners.cells[cell]) {
-        if (!taken.is_free(corner.u, distance) || !car_mask_.usable(corner.u)) continue;
-        offers.push_back(corner);
-        break;
-      }
-    }
-    std::stable_sort(offers.begin(), offers.end(),
-                     [](const Corner& a, const Corner& b) { return a.score > b.score; });
-    for (const Corner& corner : offers) {
-      if (tracks_.size() >= limit) break;
-      if (!taken.is_free(corner.u, distance)) continue;
-      taken.add(corner.u);
-      ++in_cell[cell_of(now, corner.u)];
-      start_track(now, corner);
-    }
-  }
 }
 
 void KltTracker::reset() {

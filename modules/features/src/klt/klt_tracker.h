@@ -4,9 +4,11 @@
 #include "feature_mask.h"
 #include "klt_track.h"
 #include "patch/patch_flow.h"
+#include "point_bins.h"
 #include "rematch.h"
 #include "static_points.h"
 
+#include "oneac/base/workers.h"
 #include "oneac/features/ac_tracker.h"
 
 #include <memory>
@@ -23,7 +25,7 @@ namespace oneac::internal {
 /// SIFT finds the way: its matches start tracks and lead the lost ones.
 class KltTracker : public AcTracker {
  public:
-  explicit KltTracker(const FeatureOptions& options);
+  KltTracker(const FeatureOptions& options, std::shared_ptr<Workers> workers);
 
   [[nodiscard]] std::shared_ptr<const FrameFeatures> prepare(
       const ImageView& image, const ImageView& mask = {}) const override;
@@ -62,15 +64,28 @@ class KltTracker : public AcTracker {
   void add_rematches(const std::shared_ptr<const KltFrame>& now, Matches& matches);
   [[nodiscard]] TrackedPair take(const KltFrame& now, const MotionPrediction& motion,
                                  const Matches& matches);
+  /// Per track with a match, whether it still shows its first patch; those that outgrew that take
+  /// another.
+  [[nodiscard]] std::vector<char> which_hold(const KltFrame& now, const Matches& matches);
   [[nodiscard]] bool holds(KltTrack& track, const KltFrame& now, const PatchMatch& match) const;
   /// Neither masked by the user, in this image or in all, nor known to be the car.
   [[nodiscard]] bool usable(const KltFrame& frame, const Eigen::Vector2d& u) const;
+  /// What of an image is taken by tracks.
+  struct Occupancy {
+    PointBins points;
+    std::vector<int> in_cell;  ///< per cell of the corners
+  };
   void replenish(const KltFrame& now);
-  void start_track(const KltFrame& now, const Corner& corner);
+  /// Corners for tracks to start at, best first; at most one per cell that has fewer than `round`.
+  [[nodiscard]] std::vector<Corner> offers(const KltFrame& now, const Occupancy& taken,
+                                           int round) const;
+  /// Starts those whose patch can be followed, in their order.
+  void start_tracks(const KltFrame& now, const std::vector<Corner>& corners);
   [[nodiscard]] int cell_px(const ImagePyramid& pyramid) const;
   [[nodiscard]] std::size_t cell_of(const KltFrame& frame, const Eigen::Vector2d& u) const;
 
   FeatureOptions options_;
+  std::shared_ptr<Workers> workers_;
   FeatureMask mask_;
   CarMask car_mask_;
   GreyImage unused_;  ///< by both

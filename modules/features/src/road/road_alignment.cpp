@@ -53,7 +53,7 @@ Problem make_problem(const RoadImage& first, const RoadImage& second, const Pinh
   Problem problem;
   problem.forward = goes.z() >= 0.0;
   const RoadImage &a = problem.forward ? second : first, &b = problem.forward ? first : second;
-  problem.context = {&a.pyramid(), &b.pyramid(), camera, mask};
+  problem.context = {&a.pyramid(), &b.pyramid(), camera, mask, nullptr};
   problem.prior = make_prior(step, problem.forward, direction, options);
   const Eigen::Matrix3d R_level_b =
       problem.forward ? step.R_level_cam : step.R_level_cam * step.T_2_1.R.transpose();
@@ -258,7 +258,7 @@ void RoadAlignmentOptions::validate() const {
 
 RoadAlignment align_road(const RoadImage& first, const RoadImage& second,
                          const PinholeCamera& camera, const RoadStep& step, const ImageView& mask,
-                         const RoadAlignmentOptions& options) {
+                         const RoadAlignmentOptions& options, Workers* workers) {
   options.validate();
   step.validate();
   RoadAlignment result;
@@ -266,7 +266,9 @@ RoadAlignment align_road(const RoadImage& first, const RoadImage& second,
   if (first.empty() || second.empty()) return result;
   require_size(mask, camera, first);
   require_size(mask, camera, second);
-  const Problem problem = make_problem(first, second, camera, step, mask, options);
+  Workers alone;
+  Problem problem = make_problem(first, second, camera, step, mask, options);
+  problem.context.workers = workers != nullptr ? workers : &alone;
   return align(problem, step, options, result);
 }
 

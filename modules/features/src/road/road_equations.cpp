@@ -210,8 +210,8 @@ RoadEquations road_equations(const RoadContext& context, const RoadGrid& grid,
                              const RoadEquations& before, double noise_grey, int stride) {
   const Derivative derivative(context, motion, tangents, level);
   RoadEquations equations;
-  Line line;
-  for (std::size_t block = 0; block < kBlocks; ++block) {
+  context.workers->share(kBlocks, [&](std::size_t block, std::size_t) {
+    Line line;
     Sums sums;
     const double gain = before[block].gain;
     const double scale = std::sqrt(before[block].variance);
@@ -221,7 +221,7 @@ RoadEquations road_equations(const RoadContext& context, const RoadGrid& grid,
       if (line.count >= kLeastOfLine) add_line(line, gain, scale, sums);
     }
     equations[block] = finish(sums, noise_grey, stride);
-  }
+  });
   return equations;
 }
 

@@ -2,6 +2,7 @@
 
 #include "patch/image_pyramid.h"
 
+#include "oneac/base/workers.h"
 #include "oneac/features/road_alignment.h"
 
 #include <Eigen/Core>
@@ -33,6 +34,7 @@ struct RoadContext {
   const ImagePyramid* image = nullptr;           ///< view b
   PinholeCamera camera;
   ImageView mask;
+  Workers* workers = nullptr;  ///< who share the work
 };
 
 /// Samples of the road, block by block, line by line.

@@ -155,13 +155,13 @@ std::vector<RoadScore> search_lengths(const RoadContext& context, const RoadGrid
                                       const LengthRange& range, double noise_grey,
                                       std::size_t most) {
   const std::vector<float> values = template_values(context, grid, level);
-  std::vector<RoadScore> scores;
-  RoadMotion at = motion;
   const int count = 1 + static_cast<int>(std::ceil((range.high - range.low) / range.step));
-  for (int i = 0; i < count; ++i) {
-    at.length = range.low + i * range.step;
-    scores.push_back(score_length(context, grid, values, level, at, noise_grey, kSearchStride));
-  }
+  std::vector<RoadScore> scores(static_cast<std::size_t>(count));
+  context.workers->share(scores.size(), [&](std::size_t i, std::size_t) {
+    RoadMotion at = motion;
+    at.length = range.low + static_cast<double>(i) * range.step;
+    scores[i] = score_length(context, grid, values, level, at, noise_grey, kSearchStride);
+  });
   std::vector<RoadScore> peaks;
   for (std::size_t i = 0; i < scores.size(); ++i) {
     if (is_peak(scores, i)) peaks.push_back(scores[i]);

@@ -6,14 +6,15 @@
 
 namespace oneac {
 
-KeyframeMap::KeyframeMap(const WindowOptions& options) : options_(options) {}
+KeyframeMap::KeyframeMap(const WindowOptions& options, Workers* workers)
+    : options_(options), workers_(workers) {}
 
 FrameInMap KeyframeMap::start(const FrameStamp& frame, double focal_px) {
   newest_ = frame;
   frames_ = 1;
   FrameInMap result;
   if (!options_.enabled) return result;
-  window_.emplace(options_, focal_px);
+  window_.emplace(options_, focal_px, workers_);
   window_->start(0, T_cam_map_);
   result.keyframe = window_->keyframes().back().id;
   settling_.add_keyframe(*result.keyframe, {frame.index, frame.time_s, segment_, false, 0.0});

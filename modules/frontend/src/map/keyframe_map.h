@@ -42,7 +42,8 @@ struct FrameInMap {
 /// how far the scale is to be corrected.
 class KeyframeMap {
  public:
-  explicit KeyframeMap(const WindowOptions& options);
+  /// @param workers  as of LocalMap
+  explicit KeyframeMap(const WindowOptions& options, Workers* workers = nullptr);
 
   /// The first frame of the drive.
   [[nodiscard]] FrameInMap start(const FrameStamp& frame, double focal_px);
@@ -92,6 +93,7 @@ class KeyframeMap {
   [[nodiscard]] Eigen::Isometry3d T_first_cam() const;
 
   WindowOptions options_;
+  Workers* workers_;
   std::optional<LocalMap> window_;  ///< from the first frame on, unless switched off
   Settling settling_;
   Settled final_;                 ///< since the last result

@@ -29,8 +29,11 @@ bool is_sure(const Track& track) {
 
 }  // namespace
 
-LocalMap::LocalMap(const WindowOptions& options, double focal_px)
-    : options_(options), focal_px_(focal_px), sigma_(options.refine.point_noise_px / focal_px) {}
+LocalMap::LocalMap(const WindowOptions& options, double focal_px, Workers* workers)
+    : options_(options),
+      focal_px_(focal_px),
+      sigma_(options.refine.point_noise_px / focal_px),
+      refiner_(workers) {}
 
 void LocalMap::start(std::size_t frame, const RelativePose& T_cam_map) {
   tracks_.clear();
@@ -164,7 +167,7 @@ bool LocalMap::refine(const Eigen::Matrix3d& R_level_cam, bool lengths_hold) {
   WindowExchange exchange = to_sliding_window(window_, tracks_, options_);
   exchange.window.R_level_cam = R_level_cam;
   exchange.window.focal_px = focal_px_;
-  const WindowRefineResult result = refine_window(exchange.window, options_.refine);
+  const WindowRefineResult result = refiner_.refine(exchange.window, options_.refine);
   if (!result.usable) return false;
   if (lengths_hold && stretches(exchange.window.views)) return false;
   take_back(exchange, window_, tracks_);

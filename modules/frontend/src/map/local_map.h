@@ -17,6 +17,8 @@
 
 namespace oneac {
 
+class Workers;
+
 /// A keyframe of the window.
 struct WindowKeyframe {
   std::size_t id = 0;
@@ -28,7 +30,8 @@ struct WindowKeyframe {
 /// was set by rescale(). The map's frame is the first camera's; it goes on through restarts.
 class LocalMap {
  public:
-  LocalMap(const WindowOptions& options, double focal_px);
+  /// @param workers  who shares the adjustment of the window; none: the calling thread alone
+  LocalMap(const WindowOptions& options, double focal_px, Workers* workers = nullptr);
 
   /// The first keyframe of a map; tracks and keyframes before are forgotten.
   void start(std::size_t frame, const RelativePose& T_cam_map);
@@ -92,6 +95,7 @@ class LocalMap {
   WindowOptions options_;
   double focal_px_;
   double sigma_;  ///< [-] of a point whose track does not say
+  WindowRefiner refiner_;
   std::size_t next_id_ = 0;
   std::optional<std::size_t> newest_is_keyframe_;  ///< id, when the newest frame is one
   std::size_t tracks_of_last_ = 0;                 ///< alive when the last keyframe was made

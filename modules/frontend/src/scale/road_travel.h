@@ -20,9 +20,10 @@ struct RoadPair {
   RoadImage first, second;
   PinholeCamera camera;
   ImageView mask;  ///< dark where pixels are masked or the car's own; empty: all are road or scene
-  bool car_is_known = true;   ///< nothing of the car is left beside the mask; else that may rest
-  bool shows_travel = false;  ///< images show travel by themselves, whatever rests in them
-  bool through_dirt = false;  ///< what rests in the images may be drops or dirt on the glass
+  bool car_is_known = true;    ///< nothing of the car is left beside the mask; else that may rest
+  bool shows_travel = false;   ///< images show travel by themselves, whatever rests in them
+  bool through_dirt = false;   ///< what rests in the images may be drops or dirt on the glass
+  Workers* workers = nullptr;  ///< who share the look at them; none: the calling thread alone
 
   [[nodiscard]] bool empty() const { return first.empty() || second.empty(); }
 };

@@ -13,6 +13,8 @@
 
 namespace oneac {
 
+class Workers;
+
 namespace internal {
 struct ImagePyramid;
 }
@@ -151,11 +153,13 @@ struct RoadAlignment {
 /// over |t|, n, R and t̂ with what is given as prior. Blocks that contradict (cars, kerbs) lose
 /// their weight. See docs/decisions/road-alignment.md.
 /// @param mask  dark (< 128) where pixels are not used (bonnet); empty: all are
+/// @param workers  who shares the work; none: the calling thread alone. The same to the last bit
 /// @throws std::invalid_argument  images or mask of another size than the camera's, or a bad field
 /// @cost   2 to 3 ms at 1242×375; pure, thread-safe, deterministic
 [[nodiscard]] RoadAlignment align_road(const RoadImage& first, const RoadImage& second,
                                        const PinholeCamera& camera, const RoadStep& step,
                                        const ImageView& mask = {},
-                                       const RoadAlignmentOptions& options = {});
+                                       const RoadAlignmentOptions& options = {},
+                                       Workers* workers = nullptr);
 
 }  // namespace oneac

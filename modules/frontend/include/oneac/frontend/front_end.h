@@ -30,6 +30,7 @@ namespace oneac {
 
 class CameraLearner;
 class Odometry;
+class Workers;
 
 /// A frame with its features: what can be made of one image alone.
 struct PreparedFrame {
@@ -42,16 +43,18 @@ struct PreparedFrame {
 ///
 /// track → initialise (any RelativePoseInitialiser) → refine the pair → length from the local map,
 /// else from the road → keyframe decision → adjust the window → correct the scale. No I/O but the
-/// external images of observations, no threads, no global state: many instances may live in one
-/// process. Logs through COutputLogger.
+/// external images of observations, no global state, no threads but those asked for: many instances
+/// may live in one process. Logs through COutputLogger.
 ///
 /// What throws what: numbers and pointers that the caller makes up are misuse when they are out of
 /// bounds, std::invalid_argument; what an observation holds is input, InputError for an image of
 /// the camera, and passed over for IMU, GPS and wheels, which only help.
 class FrontEnd : public mrpt::system::COutputLogger {
  public:
+  /// @param threads  that share the work of process(), the caller among them: it tracks on all of
+  ///                 them. Changes no result; below 2 no thread is started, more than 64 are not
   /// @throws std::invalid_argument for options out of bounds, InputError for an unknown initialiser
-  explicit FrontEnd(const FrontEndOptions& options);
+  explicit FrontEnd(const FrontEndOptions& options, int threads = 1);
   ~FrontEnd() override;
 
   /// The part that may run on any thread and ahead of time.
@@ -86,7 +89,7 @@ class FrontEnd : public mrpt::system::COutputLogger {
   /// @throws std::invalid_argument as add_acceleration does; a course is within two full turns
   void add_yaw_rate(double time_s, double yaw_rate);
   void add_course(double time_s, double course, double speed_mps);
-  /// CPU time of the stages so far, by name.
+  /// CPU time of the stages so far, by name, over all threads.
   [[nodiscard]] const mrpt::system::CTimeLogger& profiler() const { return profiler_; }
   /// Makes everything final that still waits, at the end of a drive. Frames that come after it
   /// begin a new segment, which the next finish() makes final.
@@ -137,6 +140,7 @@ class FrontEnd : public mrpt::system::COutputLogger {
   FrontEndOptions options_;
   bool stereo_;  ///< metres come from the right images
   bool wheels_;  ///< metres come from an odometer
+  std::shared_ptr<Workers> workers_;
   std::unique_ptr<AcTracker> tracker_;
   std::unique_ptr<Odometry> odometry_;
   std::unique_ptr<CameraLearner> learner_;

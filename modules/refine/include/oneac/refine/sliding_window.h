@@ -6,10 +6,13 @@
 #include <Eigen/Core>
 
 #include <cstddef>
+#include <memory>
 #include <string>
 #include <vector>
 
 namespace oneac {
+
+class Workers;
 
 /// Sliding-window bundle adjustment. validate() throws std::invalid_argument.
 struct WindowRefineOptions {
@@ -104,10 +107,30 @@ struct WindowRefineResult {
 /// With one, scale is left to the damping of the optimiser: it stays near the start. An observation
 /// is affine-consistent when its A agrees within its noise with the affinity that poses and patch
 /// induce; patches get their gradient by least squares over all their affinities. Landmarks are
-/// eliminated (Schur); with affine terms Ceres does it. One thread, no clock: deterministic.
+/// eliminated (Schur); with affine terms Ceres does it. No clock: deterministic.
 /// @throws std::invalid_argument on invalid options or an index out of range
 [[nodiscard]] WindowRefineResult refine_window(SlidingWindow& window,
                                                const WindowRefineOptions& options);
+
+/// refine_window() for one window after the other, in the same memory and on several threads. Its
+/// results are the same to the last bit.
+class WindowRefiner {
+ public:
+  /// @param workers  who shares the work, without affine terms; outlives this. None: the calling
+  ///                 thread alone
+  explicit WindowRefiner(Workers* workers = nullptr);
+  ~WindowRefiner();
+  WindowRefiner(WindowRefiner&&) noexcept;
+  WindowRefiner& operator=(WindowRefiner&&) noexcept;
+
+  /// @throws std::invalid_argument on invalid options or an index out of range
+  [[nodiscard]] WindowRefineResult refine(SlidingWindow& window,
+                                          const WindowRefineOptions& options);
+
+ private:
+  struct Memory;
+  std::unique_ptr<Memory> memory_;
+};
 
 /// Least squares for the gradients of all patches from the affinities of their observations, and
 /// the flags affine_consistent. Linear, closed form. Returns the number of consistent observations.
