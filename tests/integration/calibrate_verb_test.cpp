@@ -93,7 +93,7 @@ TEST_F(CalibrateVerb, HeightIsToldByWhatTellsMetresAndRunTakesIt) {
   EXPECT_NE(result.out.find("GPS speed: "), std::string::npos) << result.out;
   EXPECT_NE(result.out.find("wheels: "), std::string::npos) << result.out;
   const std::string said = "camera is ";
-  const auto at = result.out.find(said + "2.0");
+  const auto at = result.out.find(said);
   ASSERT_NE(at, std::string::npos) << result.out;
   EXPECT_NEAR(std::stod(result.out.substr(at + said.size())), 2.0, 0.06) << result.out;
   const ProgramResult run = run_program({ONEAC_PROGRAM, "run", log, "-o", folder("out"), "--count",
