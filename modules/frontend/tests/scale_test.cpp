@@ -213,8 +213,9 @@ TEST(Scale, ACarOfWhichNothingIsKnownRestsOnlyIfNearlyAllPointsDo) {
     Scale scale = started(by("height"));
     return scale.length_of(resting, {});
   };
-  EXPECT_TRUE(rest_of(0.9).metric);
+  EXPECT_TRUE(rest_of(0.98).metric);
   EXPECT_FALSE(rest_of(0.55).metric) << "clouds";
+  EXPECT_FALSE(rest_of(0.93).metric) << "a bonnet";
 }
 
 TEST(Scale, ARestSeenThroughDirtIsNotMetric) {

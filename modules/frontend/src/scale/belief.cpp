@@ -25,8 +25,9 @@ constexpr double kStillness = 0.02;
 // [m or heights] a rest that is known no better than this says nothing in metres.
 constexpr double kSureRest = 0.05;
 // [-] share of the points that has to rest: of a car that stood (a bus may fill the picture, and a
-// tenth rests by chance), that drove, and of which nothing is known (under clouds half of them do).
-constexpr double kFew = 0.1, kMost = 0.5, kNearlyAll = 0.8;
+// tenth rests by chance), that drove, and of which nothing is known: half of them rest under
+// clouds, and behind a bonnet nine tenths.
+constexpr double kFew = 0.1, kMost = 0.5, kNearlyAll = 0.95;
 // [rad] of a direction that is the car's, not that of somebody who crosses.
 constexpr double kAlong = 15.0 * kDegree;
 
