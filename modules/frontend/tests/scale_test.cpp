@@ -584,6 +584,9 @@ TEST(Scale, CreepingDoesNotLoseTheScale) {
 TEST(ShutterClock, TakesARegularShutterForGrantedBesideStampsThatJitter) {
   ShutterClock clock;
   EXPECT_EQ(clock.between(0.08).half_range, 0.0) << "nothing is known yet";
+  clock.tell(0.05);
+  EXPECT_GT(clock.between(0.022).half_range, 0.01) << "one of the two jitters";
+  EXPECT_LT(clock.between(0.05).half_range, 1e-9);
   for (int i = 0; i < 10; ++i) clock.tell(i % 2 == 0 ? 0.051 : 0.049);
   const StepTime late = clock.between(0.078);  // 1.5 intervals: one or two
   EXPECT_NEAR(late.least(), 0.05, 2e-3);

@@ -12,9 +12,8 @@ namespace {
 constexpr double kGate = 3.0;  // [σ] of measurements and of the speed itself
 // [m/s] speeds are never surer than this: engines and brakes jerk within a step.
 constexpr double kSurest = 0.05;
-// [intervals] of which the median is taken, and before which nothing is known of the shutter.
-constexpr double kClear = 0.25;  // [intervals] nearer to a whole number it is no other one
-constexpr std::size_t kIntervals = 25, kFewestIntervals = 5;
+constexpr double kClear = 0.25;         // [intervals] nearer to a whole number it is no other one
+constexpr std::size_t kIntervals = 25;  // of which the median is taken
 
 }  // namespace
 
@@ -26,7 +25,6 @@ void ShutterClock::tell(double seconds) {
   if (!(seconds > 0.0)) return;
   newest_.push_back(seconds);
   if (newest_.size() > kIntervals) newest_.pop_front();
-  if (newest_.size() < kFewestIntervals) return;
   interval_ = upper_median(std::vector<double>(newest_.begin(), newest_.end()));
 }
 
