@@ -213,7 +213,8 @@ TEST(MotionEvidence, BackwardsIsFoundByCheirality) {
 TEST(MotionEvidence, RefusesMisuseAndSaysNothingOfNothing) {
   EXPECT_EQ(judge({}).model, MotionModel::kStill);
   Acs acs(20);
-  EXPECT_THROW(judge_motion(acs, {1.0}, {}, kLevel, {}, {}), std::invalid_argument);
+  EXPECT_THROW(static_cast<void>(judge_motion(acs, {1.0}, {}, kLevel, {}, {})),
+               std::invalid_argument);
   MotionEvidenceOptions options;
   options.sigma = 0.0;
   EXPECT_THROW(options.validate(), std::invalid_argument);
