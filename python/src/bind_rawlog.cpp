@@ -109,7 +109,7 @@ py::object pixels(const std::shared_ptr<CameraFrame>& frame, const GreyImage& im
   py::array_t<std::uint8_t> array(Shape{view.height, view.width}, Shape{view.stride, 1}, view.data,
                                   py::cast(frame));
   array.attr("setflags")(py::arg("write") = false);
-  return std::move(array);
+  return array;
 }
 
 void bind_frame(py::module_& m) {

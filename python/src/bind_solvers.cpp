@@ -136,9 +136,9 @@ py::object planar(const Solver& solver, const py::object& x1, const py::object& 
     throw std::invalid_argument("x1 has shape " + text_of(with_points(acs.shape())) +
                                 ", must have (N, 2)");
   }
-  const Shape shape = acs.shape();
-  Doubles cos_alpha(shape), sin_alpha(shape), tx(shape), tz(shape);
-  Flags valid(shape);
+  const auto count = acs.shape().front();
+  Doubles cos_alpha(count), sin_alpha(count), tx(count), tz(count);
+  Flags valid(count);
   static_assert(sizeof(bool) == sizeof(std::uint8_t));
   const PlanarPoseArrays poses{cos_alpha.mutable_data(), sin_alpha.mutable_data(),
                                tx.mutable_data(), tz.mutable_data(),

@@ -55,8 +55,8 @@ TEST_F(TrajectoryForms, SquareMatricesInOneLineOrInFour) {
   }
   EXPECT_EQ(read("0.5 1 0 0 5 0 1 0 6 0 0 1 7\n").trajectory.times.at(0), 0.5);
   EXPECT_EQ(read("0.5 " + one).trajectory.times.at(0), 0.5);
-  EXPECT_THROW(read("1 0 0 5 0 1 0 6 0 0 1 7 0 0 1 1\n"), InputError);
-  EXPECT_THROW(read("1 0 0 5\n0 1 0 6\n0 0 1 7\n"), InputError);
+  EXPECT_THROW(static_cast<void>(read("1 0 0 5 0 1 0 6 0 0 1 7 0 0 1 1\n")), InputError);
+  EXPECT_THROW(static_cast<void>(read("1 0 0 5\n0 1 0 6\n0 0 1 7\n")), InputError);
 }
 
 TEST_F(TrajectoryForms, TheUnitIsThatOfTheYearOrOfTheSpacing) {
@@ -91,7 +91,7 @@ TEST_F(TrajectoryForms, OtherColumnsNameTheFormsThatAreRead) {
   } catch (const InputError& error) {
     EXPECT_NE(std::string(error.what()).find("5 columns"), std::string::npos) << error.what();
   }
-  EXPECT_THROW(read("1 0 0 0 0 0 0 1\n1 2 3\n"), InputError);
+  EXPECT_THROW(static_cast<void>(read("1 0 0 0 0 0 0 1\n1 2 3\n")), InputError);
 }
 
 }  // namespace
