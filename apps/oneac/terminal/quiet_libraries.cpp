@@ -1,5 +1,7 @@
 #include "quiet_libraries.h"
 
+#include <opencv2/core/utils/logger.hpp>
+
 #ifdef ONEAC_HAS_GLOG
 #include <glog/logging.h>
 #endif
@@ -7,6 +9,7 @@
 namespace oneac::app {
 
 void quiet_libraries() {
+  cv::utils::logging::setLogLevel(cv::utils::logging::LOG_LEVEL_SILENT);
 #ifdef ONEAC_HAS_GLOG
   FLAGS_minloglevel = google::GLOG_FATAL;
 #endif

@@ -9,6 +9,7 @@
 
 #include <dlfcn.h>
 
+#include <opencv2/core/utils/logger.hpp>
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/videoio.hpp>
 
@@ -20,23 +21,26 @@ namespace oneac {
 namespace {
 
 namespace fs = std::filesystem;
+namespace logging = cv::utils::logging;
 
 constexpr double kMillisecond = 1e-3;
 
-/// FFmpeg prints what it thinks of a file; here what is wrong is said once, by an exception. OpenCV
-/// has no switch for it and sets FFmpeg's level at each opening, but not its callback.
-class SilentFfmpeg {
+/// FFmpeg and OpenCV print what they think of a file; here what is wrong is said once, by an
+/// exception. OpenCV has no switch for FFmpeg and sets its level at each opening, but not its
+/// callback.
+class SilentVideo {
  public:
-  SilentFfmpeg() {
+  SilentVideo() : usual_level_(logging::setLogLevel(logging::LOG_LEVEL_SILENT)) {
     set_callback([](void*, int, const char*, va_list) {});
   }
-  ~SilentFfmpeg() {
+  ~SilentVideo() {
+    logging::setLogLevel(usual_level_);
     if (void* usual = ::dlsym(RTLD_DEFAULT, "av_log_default_callback")) {
       set_callback(reinterpret_cast<Callback>(usual));
     }
   }
-  SilentFfmpeg(const SilentFfmpeg&) = delete;
-  SilentFfmpeg& operator=(const SilentFfmpeg&) = delete;
+  SilentVideo(const SilentVideo&) = delete;
+  SilentVideo& operator=(const SilentVideo&) = delete;
 
  private:
   using Callback = void (*)(void*, int, const char*, va_list);
@@ -47,6 +51,8 @@ class SilentFfmpeg {
       reinterpret_cast<Setter>(setter)(callback);
     }
   }
+
+  logging::LogLevel usual_level_;
 };
 
 /// A video's frames, one at a time.
@@ -78,7 +84,7 @@ class Video {
 
  private:
   fs::path file_;
-  SilentFfmpeg silent_;
+  SilentVideo silent_;
   cv::VideoCapture capture_;
 };
 
