@@ -57,6 +57,7 @@ bool speaks_for_rest(const ExpectedLength& expected) {
   return expected.length <= kStillness && expected.sigma <= kSureRest;
 }
 
+/// Of the points, so that a rest of them is one of the car.
 double least_share_at_rest(bool speed_is_known, bool stood) {
   if (stood) return kFew;
   return speed_is_known ? kMost : kNearlyAll;

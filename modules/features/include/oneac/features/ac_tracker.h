@@ -66,9 +66,8 @@ class AcTracker {
 
 /// Makes the tracker named in the options; matching extractors are wrapped, their tracks chained
 /// through the features that two pairs share.
-/// @param workers  who shares the work of advance() where it can be ("klt"), and nothing else in
-/// the
-///                 meantime; none: the calling thread alone. The correspondences are the same
+/// @param workers  who shares the work of advance() where it can be ("klt"), and nothing else
+///                 meanwhile; none: the calling thread alone. The correspondences are the same
 /// @throws std::invalid_argument when the name or an option is not valid
 [[nodiscard]] std::unique_ptr<AcTracker> make_tracker(const FeatureOptions& options,
                                                       std::shared_ptr<Workers> workers = nullptr);
