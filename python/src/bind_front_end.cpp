@@ -43,13 +43,13 @@ class LiveFrontEnd {
     const auto result = alone([&] { return front_end_.feed(observation); });
     if (!result) return py::none();
     remember(*result);
-    return to_python(*result);
+    return python::to_python(*result);
   }
 
   py::object process(const CameraFrame& frame) {
     const FrameResult result = alone([&] { return front_end_.process(front_end_.prepare(frame)); });
     remember(result);
-    return to_python(result);
+    return python::to_python(result);
   }
 
   void add_speed(double time_s, double speed, double sigma) {
