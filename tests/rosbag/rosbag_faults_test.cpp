@@ -93,7 +93,7 @@ TEST_F(RosbagFaults, OfACameraAreNamed) {
   const std::vector<std::pair<std::function<void(Info&)>, std::string>> cases{
       {[](Info& m) { m.K[0] = std::numeric_limits<double>::quiet_NaN(); },
        "/cam/camera_info: message 1: K holds nan"},
-      {[](Info& m) { m.K.assign(0.0); }, "its camera is not calibrated (K is 0)"},
+      {[](Info& m) { m.K.fill(0.0); }, "its camera is not calibrated (K is 0)"},
       {[](Info& m) { m.K[0] = 1e300; }, "/cam/camera_info: message 1"},
       {[](Info& m) { m.width = 0; }, "it is for images of 0x240 pixels"},
       {[](Info& m) { m.width = 300; }, "is for 300x240, the images are 320x240"},
