@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-#include <Eigen/Cholesky>
+#include <Eigen/Eigenvalues>
 
 #include <random>
 #include <vector>
@@ -75,7 +75,7 @@ struct Spread {
 };
 
 Spread spread_of(std::size_t keyframe, const Errors& errors) {
-  constexpr int kDrives = 150;
+  constexpr int kDrives = 100;
   std::mt19937 random(3);
   Spread spread;
   for (int i = 0; i < kDrives; ++i) {
@@ -111,7 +111,8 @@ TEST(GraphCovariance, IsThatOfManyDrivesWithErrorsOfTheirOwn) {
 TEST(GraphCovariance, CarriesWhatAllStepsShareThroughTheLoops) {
   const std::size_t opposite = kLap / 2;
   expect_true(spread_of(opposite, {1.0, 0.03, 0.0}), "of lengths");
-  const Spread turned = spread_of(opposite, {1.0, 0.0, 0.01});
+  // Larger ones, and the loops are taken for false: their steps do not know of it.
+  const Spread turned = spread_of(opposite, {1.0, 0.0, 0.004});
   EXPECT_NEAR(turned.position / turned.position_believed, 1.0, 0.3);
 }
 
@@ -124,7 +125,9 @@ TEST(GraphCovariance, LoopsMakeSurer) {
   const auto without = closed_covariances(drive.keyframes, open, {});
   EXPECT_TRUE(with.front().isZero());
   EXPECT_LT(with.back().trace(), 0.5 * without.back().trace());
-  for (const Matrix6& one : with) EXPECT_GE(one.eigenvalues().real().minCoeff(), -1e-12);
+  for (const Matrix6& one : with) {
+    EXPECT_GE(Eigen::SelfAdjointEigenSolver<Matrix6>(one).eigenvalues().minCoeff(), -1e-12);
+  }
 }
 
 TEST(GraphCovariance, IsZeroOfADriveOfOneKeyframeAndOfNone) {
