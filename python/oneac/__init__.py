@@ -8,6 +8,7 @@ names it; input that cannot be used is an InputError: where, fault, cure.
     oneac.relpose_1ac_ground(x1, x2, A)      every solver: oneac.solvers()
     oneac.one_ac_consensus(x1, x2, A, focal_px=700), oneac.gc_ransac("essential_5pc", x1, x2, …)
     oneac.Initialiser("1ac_pooled").estimate(x1, x2, A, focal_px=700)
+    oneac.planar_focal(x1, x2, A)            the focal length with the motion
     oneac.FrontEnd(camera, camera_height=1.65).feed(image, time_s)
     oneac.Rawlog("drive.rawlog"), oneac.read_run("result")
 
@@ -32,6 +33,8 @@ from ._oneac import (
     mount,
     normalise,
     one_ac_consensus,
+    planar_focal,
+    planar_focal_of_all,
     read_covariances,
     read_relative_poses,
     read_sensors,
@@ -65,6 +68,8 @@ __all__ = [
     "mount",
     "normalise",
     "one_ac_consensus",
+    "planar_focal",
+    "planar_focal_of_all",
     "read_covariances",
     "read_relative_poses",
     "read_sensors",

@@ -3,12 +3,16 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
+if TYPE_CHECKING:
+    from ._oneac import Camera
+
 __all__ = [
+    "CameraBelief",
     "Correspondences",
     "Covariances",
     "Evaluation",
@@ -17,14 +21,17 @@ __all__ = [
     "Imu",
     "MotionEvidence",
     "PairErrors",
+    "PlanarFocals",
     "PlanarPoses",
     "Poses",
     "RawlogReport",
     "RelativePoses",
     "RobustResult",
     "Sensors",
+    "Speeds",
     "Statistics",
     "Step",
+    "TiltBelief",
     "Trajectory",
     "TrajectoryErrors",
 ]
@@ -76,6 +83,31 @@ class PlanarPoses(NamedTuple):
     def t(self) -> Floats:
         """(N, 3)."""
         return np.stack([self.tx, np.zeros_like(self.tx), self.tz], axis=1)
+
+
+class PlanarFocals(NamedTuple):
+    """Planar motions, |t| = 1, with the focal length that both views share."""
+
+    cos_alpha: Floats
+    sin_alpha: Floats
+    tx: Floats
+    tz: Floats
+    focal: Floats
+    """true over assumed focal length, pixels for points in pixels; NaN where none was found"""
+    strength: Floats
+    """how well the motion shows it: the error of ln focal is the correspondence's over it"""
+    valid: Flags
+    """whether the solver found one"""
+
+    @property
+    def R(self) -> Floats:
+        """(N, 3, 3), as of PlanarPoses."""
+        return PlanarPoses(*self[:4], self.valid).R
+
+    @property
+    def t(self) -> Floats:
+        """(N, 3)."""
+        return PlanarPoses(*self[:4], self.valid).t
 
 
 class Correspondences(NamedTuple):
@@ -179,6 +211,44 @@ class FrameResult:
     """[rad]"""
     keyframe: int | None
     """its number, when this frame became one"""
+
+
+@dataclass(frozen=True, eq=False)
+class TiltBelief:
+    """The camera's tilt against the road [rad]."""
+
+    pitch_up: float
+    roll_right: float
+    pitch_sigma: float
+    """1σ"""
+    roll_sigma: float
+    """1σ"""
+
+
+@dataclass(frozen=True, eq=False)
+class CameraBelief:
+    """The camera as given, as used, and as the drive says that it is."""
+
+    given: Camera
+    """of the images as the front-end gets them"""
+    used: Camera
+    """from the newest frame on"""
+    focal_px: float
+    """most probable focal length"""
+    focal_sigma: float
+    """relative 1σ of it"""
+    drive_sigma: float
+    """the same by the drive alone; above 1: it cannot know"""
+    bends: int
+    """windows with a bend that were measured"""
+    sensors: list[str]
+    """whose turns count, too: gyroscope, GPS course"""
+    contradicting: list[str]
+    """whose turns contradict those of the images"""
+    doubt: float
+    """relative 1σ that lengths by the given focal length have for it"""
+    knows_focal: bool
+    """the drive has made the focal length surer than it was given"""
 
 
 @dataclass(frozen=True, eq=False)
@@ -320,6 +390,20 @@ class Imu:
     """(N, 3) [rad/s]"""
 
 
+@dataclass(frozen=True, eq=False)
+class Speeds:
+    """Speeds over ground, in time order."""
+
+    time_s: Floats
+    speed: Floats
+    """[m/s]"""
+    sigma: Floats
+    """[m/s] 1σ"""
+
+    def __len__(self) -> int:
+        return len(self.time_s)
+
+
 class Sensors(NamedTuple):
     """What the other sensors of a log say."""
 
@@ -337,3 +421,12 @@ class RawlogReport:
     pairs_delivered: int
     damage: str
     """one line when the log ends badly, else empty"""
+    first_lone: str = ""
+    """first image that came without its right one, where that was asked for"""
+    names_out_of_order: str = ""
+    """one line when names of images do not follow their times, else empty"""
+    wheel_readings: int = 0
+    calibration_scaled: str = ""
+    """one line when the calibration was given for another size, else empty"""
+    undistorted_by_log: bool = False
+    """images are taken for raw, because the log's calibration has distortion"""

@@ -10,9 +10,11 @@
 #include <pybind11/stl.h>
 #include <pybind11/stl/filesystem.h>
 
+#include <array>
 #include <memory>
 #include <mutex>
 #include <optional>
+#include <utility>
 
 namespace oneac::python {
 namespace {
@@ -26,7 +28,10 @@ class Rawlog {
     const py::gil_scoped_release release;
     const std::lock_guard<std::mutex> lock(mutex_);
     const auto ticket = source_.next();
-    if (ticket) return std::make_shared<CameraFrame>(source_.load(*ticket));
+    if (ticket) {
+      wheels_.insert(wheels_.end(), ticket->wheels.begin(), ticket->wheels.end());
+      return std::make_shared<CameraFrame>(source_.load(*ticket));
+    }
     if (!finished_) source_.finish();
     finished_ = true;
     return nullptr;
@@ -35,17 +40,25 @@ class Rawlog {
     const std::lock_guard<std::mutex> lock(mutex_);
     return source_.report();
   }
+  [[nodiscard]] std::vector<SpeedReading> take_wheels() {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    return std::exchange(wheels_, {});
+  }
 
  private:
   std::mutex mutex_;
   RawlogSource source_;
+  std::vector<SpeedReading> wheels_;  ///< that nobody has taken yet
   bool finished_ = false;
 };
 
 std::unique_ptr<Rawlog> open(const std::filesystem::path& log, const std::string& camera,
                              const std::optional<std::filesystem::path>& images_dir,
                              const py::object& calibration, std::size_t first, std::size_t count,
-                             std::size_t every, bool stereo, const std::string& convention) {
+                             std::size_t every, bool stereo, const std::string& convention,
+                             const std::optional<std::filesystem::path>& mask_dir,
+                             const std::optional<std::array<double, 3>>& mount_deg,
+                             double undistorted_fov_deg) {
   SourceOptions options;
   options.log = log;
   options.camera = camera;
@@ -55,6 +68,12 @@ std::unique_ptr<Rawlog> open(const std::filesystem::path& log, const std::string
   options.count = count;
   options.every = every;
   options.stereo = stereo;
+  if (mask_dir) options.mask_dir = *mask_dir;
+  if (mount_deg) {
+    options.mount = MountAngles{(*mount_deg)[0], (*mount_deg)[1], (*mount_deg)[2]};
+    options.mount->validate();
+  }
+  options.undistorted_fov_deg = undistorted_fov_deg;
   if (py::isinstance<PinholeCamera>(calibration)) {
     options.camera_model = py::cast<PinholeCamera>(calibration);
   } else if (!calibration.is_none()) {
@@ -67,8 +86,18 @@ std::unique_ptr<Rawlog> open(const std::filesystem::path& log, const std::string
 
 py::object report_of(Rawlog& log) {
   const SourceReport report = log.report();
-  return result_class("RawlogReport")(report.images_in_log, report.images_missing,
-                                      report.first_missing, report.pairs_delivered, report.damage);
+  return result_class("RawlogReport")(
+      report.images_in_log, report.images_missing, report.first_missing, report.pairs_delivered,
+      report.damage, report.first_lone, report.names_out_of_order, report.wheel_readings,
+      report.calibration_scaled, report.undistorted_by_log);
+}
+
+py::object speeds_of(Rawlog& log) {
+  const std::vector<SpeedReading> told = log.take_wheels();
+  return result_class("Speeds")(
+      column<double>(told, [](const SpeedReading& reading) { return reading.time_s; }),
+      column<double>(told, [](const SpeedReading& reading) { return reading.speed; }),
+      column<double>(told, [](const SpeedReading& reading) { return reading.sigma; }));
 }
 
 py::object gps_columns(const std::vector<GpsFix>& gps) {
@@ -112,12 +141,25 @@ py::object pixels(const std::shared_ptr<CameraFrame>& frame, const GreyImage& im
   return array;
 }
 
+std::shared_ptr<CameraFrame> made_frame(const py::object& image, double time_s,
+                                        const PinholeCamera& camera, std::size_t index,
+                                        const py::object& T_vehicle_cam, const py::object& mask,
+                                        const py::object& right, const py::object& right_mask,
+                                        double baseline_m) {
+  return frame_from(image, time_s, camera, index, T_vehicle_cam,
+                    {mask, right, right_mask, baseline_m});
+}
+
 void bind_frame(py::module_& m) {
   using Frame = std::shared_ptr<CameraFrame>;
   py::class_<CameraFrame, Frame>(m, "Frame", "One rectified image of one camera.")
-      .def(py::init(&frame_from), py::arg("image"), py::arg("time_s"), py::arg("camera"),
-           py::arg("index") = 0, py::arg("T_vehicle_cam") = py::none(),
-           "image: (height, width) uint8 without distortion, of the camera's size; time_s: [s].")
+      .def(py::init(&made_frame), py::arg("image"), py::arg("time_s"), py::arg("camera"),
+           py::arg("index") = 0, py::arg("T_vehicle_cam") = py::none(), py::kw_only(),
+           py::arg("mask") = py::none(), py::arg("right") = py::none(),
+           py::arg("right_mask") = py::none(), py::arg("baseline_m") = 0.0,
+           "image: (height, width) uint8 without distortion, of the camera's size; time_s: [s].\n"
+           "right: the same of a camera baseline_m [m] to the right, rectified with it, for\n"
+           "scale={\"source\": \"stereo\"}; masks: below 128 where pixels are not used.")
       .def_readonly("index", &CameraFrame::index)
       .def_readonly("time_s", &CameraFrame::time_s)
       .def_readonly("name", &CameraFrame::name)
@@ -125,7 +167,9 @@ void bind_frame(py::module_& m) {
       .def_readonly("raw_camera", &CameraFrame::raw_camera)
       .def_readonly("baseline_m", &CameraFrame::baseline_m)
       .def_property_readonly("image", [](const Frame& f) { return pixels(f, f->image); })
+      .def_property_readonly("mask", [](const Frame& f) { return pixels(f, f->mask); })
       .def_property_readonly("right", [](const Frame& f) { return pixels(f, f->right); })
+      .def_property_readonly("right_mask", [](const Frame& f) { return pixels(f, f->right_mask); })
       .def_property_readonly("T_vehicle_cam",
                              [](const Frame& f) { return to_numpy(f->T_vehicle_cam); })
       .def("__repr__", [](const Frame& f) {
@@ -139,7 +183,11 @@ void bind_log(py::module_& m) {
            py::arg("images_dir") = py::none(), py::arg("calibration") = py::none(),
            py::arg("first") = 0, py::arg("count") = 0, py::arg("every") = 1,
            py::arg("stereo") = false, py::arg("mount_convention") = "auto",
-           "As the flags of `oneac run`; calibration: FILE[:SECTION] or a Camera. Streams: memory\n"
+           py::arg("mask_dir") = py::none(), py::arg("mount_deg") = py::none(),
+           py::arg("undistorted_fov_deg") = 0.0,
+           "As the flags of `oneac run`; calibration: FILE[:SECTION] or a Camera; mount_deg: roll\n"
+           "to the right, pitch up and yaw to the left [deg], instead of the log's. Streams: "
+           "memory\n"
            "does not grow with the log. InputError: where, fault, cure.")
       .def("__iter__", [](py::object self) { return self; })
       .def("__next__",
@@ -148,6 +196,9 @@ void bind_log(py::module_& m) {
              if (!frame) throw py::stop_iteration();
              return frame;
            })
+      .def("take_wheels", &speeds_of,
+           "Speeds by the log's odometer that became known since the last call, for\n"
+           "FrontEnd.add_speed() with scale={\"source\": \"wheels\"}.")
       .def_property_readonly("report", &report_of,
                              "What was read so far: oneac.RawlogReport. A log that ends in damage\n"
                              "gives its frames before that; `damage` says so then.");

@@ -40,7 +40,7 @@ std::size_t capacity_of(const Solver& solver) {
 py::object poses_of_one(const PoseSet& poses) {
   const Samples one{false, 1};
   PoseArrays arrays(one, poses.size());
-  PoseMemory(arrays).put(0, poses.size(), poses);
+  PoseMemory(arrays).put(0, poses.size(), poses.begin(), poses.size());
   return arrays.to_python();
 }
 
@@ -76,8 +76,9 @@ py::object solve(const Solver& solver, const py::object& x1, const py::object& x
     if (solver.batch != nullptr) {
       solve_in_blocks(solver, acs, memory);
     } else {
+      std::array<PlanePose, PoseSet::kCapacity> poses;
       for_each_sample(solver, acs, samples.count, [&](std::size_t i, AcSpan sample) {
-        memory.put(i, capacity, solver.run.poses(sample));
+        memory.put(i, capacity, poses.data(), solver.run.put(sample, poses.data()));
       });
     }
   }
@@ -163,6 +164,8 @@ void bind_row_class(py::module_& m) {
       .def_property_readonly("assumptions", &Solver::assumptions)
       .def_property_readonly("unknowns", [](const Solver& s) { return std::string(s.unknowns); })
       .def_property_readonly("unit", [](const Solver& s) { return std::string(s.unit); })
+      .def_readonly("typical_ns", &Solver::typical_ns)
+      .def_property_readonly("in_pool", [](const Solver& s) { return s.pool == PoolUse::kOn; })
       .def_property_readonly("max_poses", &capacity_of)
       .def_property_readonly("has_least_squares",
                              [](const Solver& s) { return s.run.least_squares != nullptr; })

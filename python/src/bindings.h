@@ -8,6 +8,7 @@ namespace oneac::python {
 void bind_errors(pybind11::module_& m);
 void bind_geometry(pybind11::module_& m);
 void bind_solvers(pybind11::module_& m);
+void bind_focal(pybind11::module_& m);
 void bind_robust(pybind11::module_& m);
 void bind_files(pybind11::module_& m);
 void bind_rawlog(pybind11::module_& m);

@@ -28,6 +28,17 @@ py::object to_python(const FrameResult& result) {
                                      result.tilt.tilt.roll_right, keyframe);
 }
 
+py::object to_python(const TiltBelief& belief) {
+  return result_class("TiltBelief")(belief.tilt.pitch_up, belief.tilt.roll_right,
+                                    belief.pitch_sigma, belief.roll_sigma);
+}
+
+py::object to_python(const CameraBelief& belief) {
+  return result_class("CameraBelief")(
+      belief.given, belief.used, belief.focal_px, belief.focal_sigma, belief.drive_sigma,
+      belief.bends, belief.sensors, belief.contradicting, belief.doubt, belief.knows_focal());
+}
+
 RelativePoseRow row_of(const StepResult& step) {
   RelativePoseRow row;
   row.index1 = step.index1;

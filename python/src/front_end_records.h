@@ -3,7 +3,9 @@
 #include "frames.h"
 #include "records.h"
 
+#include "oneac/frontend/camera_belief.h"
 #include "oneac/frontend/frame_result.h"
+#include "oneac/frontend/tilt_belief.h"
 
 #include <mrpt/obs/CObservationImage.h>
 #include <mrpt/system/COutputLogger.h>
@@ -15,6 +17,9 @@ namespace oneac::python {
 
 /// oneac.FrameResult.
 [[nodiscard]] py::object to_python(const FrameResult& result);
+/// oneac.TiltBelief and oneac.CameraBelief.
+[[nodiscard]] py::object to_python(const TiltBelief& belief);
+[[nodiscard]] py::object to_python(const CameraBelief& belief);
 /// As a row of relative_poses.csv.
 [[nodiscard]] RelativePoseRow row_of(const StepResult& step);
 /// A line of MRPT's logger to Python's, "oneac". Takes the interpreter's lock.

@@ -20,6 +20,7 @@ PYBIND11_MODULE(_oneac, m) {
   oneac::python::bind_errors(m);
   oneac::python::bind_geometry(m);
   oneac::python::bind_solvers(m);
+  oneac::python::bind_focal(m);
   oneac::python::bind_robust(m);
   oneac::python::bind_files(m);
   oneac::python::bind_rawlog(m);

@@ -53,10 +53,11 @@ struct PoseMemory {
         count(arrays.count.mutable_data()) {}
 
   /// Writes a sample's poses; what is left of its `capacity` rows becomes no motion.
-  void put(std::size_t sample, std::size_t capacity, const PoseSet& poses) const {
-    count[sample] = static_cast<std::int64_t>(poses.size());
+  void put(std::size_t sample, std::size_t capacity, const PlanePose* poses,
+           std::size_t size) const {
+    count[sample] = static_cast<std::int64_t>(size);
     std::size_t at = sample * capacity;
-    for (const PlanePose& pose : poses) put_row(at++, pose.motion, pose.n);
+    for (std::size_t i = 0; i < size; ++i) put_row(at++, poses[i].motion, poses[i].n);
     while (at < (sample + 1) * capacity) put_row(at++, {}, Eigen::Vector3d::Zero());
   }
   /// A block of planar motions, one or none per sample, as the list's batch forms give them.

@@ -1,10 +1,14 @@
+#include "rewritten_log.h"
+
 #include "oneac/test_support/program.h"
 #include "oneac/test_support/temporary_folder.h"
 
 #include <gtest/gtest.h>
+#include <mrpt/obs/CObservationIMU.h>
 
 #include <nlohmann/json.hpp>
 
+#include <cmath>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
@@ -82,6 +86,40 @@ TEST_F(CalibrateVerb, GyroscopeAndCourseAreSetAgainstTheTurnsByImages) {
   EXPECT_NEAR(std::stod(result.out.substr(at + said.size())), 0.0, 0.3) << result.out;
   EXPECT_NE(result.out.find("GPS course against"), std::string::npos) << result.out;
   EXPECT_NE(result.out.find("bends, gyroscope, GPS course)"), std::string::npos) << result.out;
+}
+
+/// The log again with rates of its IMU in deg/s.
+void write_rates_in_degrees(const std::string& log, const std::string& copy) {
+  rewrite_log(log, copy, [](mrpt::obs::CObservation& observation) {
+    auto* imu = dynamic_cast<mrpt::obs::CObservationIMU*>(&observation);
+    if (imu == nullptr) return;
+    for (const auto rate : {mrpt::obs::IMU_WX, mrpt::obs::IMU_WY, mrpt::obs::IMU_WZ}) {
+      imu->set(rate, imu->get(rate) * 180.0 / M_PI);
+    }
+  });
+}
+
+TEST_F(CalibrateVerb, AGyroscopeOfAnotherUnitIsNamedByRunToo) {
+  const std::string log = simulate({"--frames", "110"});
+  const std::string wrong = folder("drive") + "/degrees.rawlog";
+  write_rates_in_degrees(log, wrong);
+  const std::string said =
+      "the gyroscope does not turn with the images: they turn as it does about its +Z axis in "
+      "deg/s";
+  const auto run = [&](const std::string& of) {
+    return run_program({ONEAC_PROGRAM, "run", of, "-o", folder("out"), "--images-dir",
+                        folder("drive") + "/Images", "--no-progress"});
+  };
+  const ProgramResult right = run(log);
+  ASSERT_EQ(right.exit_code, 0) << right.err;
+  EXPECT_EQ(right.err.find("gyroscope"), std::string::npos) << right.err;
+  const ProgramResult degrees = run(wrong);
+  ASSERT_EQ(degrees.exit_code, 0) << degrees.err;
+  EXPECT_NE(degrees.err.find(said), std::string::npos) << degrees.err;
+  const ProgramResult calibrated =
+      run_program({ONEAC_PROGRAM, "calibrate", wrong, "-o", folder("camera.ini"), "--passes", "1"});
+  ASSERT_EQ(calibrated.exit_code, 0) << calibrated.err;
+  EXPECT_NE(calibrated.out.find(said), std::string::npos) << calibrated.out;
 }
 
 TEST_F(CalibrateVerb, HeightIsToldByWhatTellsMetresAndRunTakesIt) {

@@ -1,12 +1,15 @@
 // What people do with files, folders, names and clocks.
 #include "drive_fixture.h"
+#include "rewritten_log.h"
 
 #include <gtest/gtest.h>
+#include <mrpt/obs/CObservationGPS.h>
 #include <sys/stat.h>
 
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
+#include <chrono>
 #include <filesystem>
 #include <sstream>
 #include <string>
@@ -153,6 +156,23 @@ TEST_F(Everyday, GravityThatIsNotInTheLogIsSaidAndWhatWasUsedInstead) {
   EXPECT_EQ(summary()["tilt_source"], "imu");
 }
 
+TEST_F(Everyday, AGpsOfAnotherTimeIsNamedWithBothSpans) {
+  const std::string late = (drive() / "late.rawlog").string();
+  rewrite_log(log(), late, [](mrpt::obs::CObservation& observation) {
+    const bool gps = dynamic_cast<mrpt::obs::CObservationGPS*>(&observation) != nullptr;
+    if (gps) observation.timestamp += std::chrono::hours(2);
+  });
+  for (const char* source : {"height", "gps"}) {
+    const ProgramResult result =
+        run(late, {"--set", std::string("front_end.scale.source=") + source});
+    ASSERT_EQ(result.exit_code, 0) << result.err;
+    EXPECT_NE(result.err.find("does not overlap the images (1261229980.0 to"), std::string::npos)
+        << result.err;
+    EXPECT_NE(result.err.find("the GPS (1261237"), std::string::npos) << result.err;
+  }
+  fs::remove(late);
+}
+
 TEST_F(Everyday, OnlyFilesAreReadAndReplaced) {
   const fs::path pipe = scratch() / "pipe";
   ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);
@@ -217,6 +237,12 @@ TEST_F(Everyday, ValuesAreQuotedShortAndHarmless) {
     EXPECT_LT(result.err.size(), 4000U);
     EXPECT_EQ(result.err.find('\x1b'), std::string::npos);
     EXPECT_EQ(std::count(result.err.begin(), result.err.end(), '\n'), 1) << result.err;
+  }
+  for (const std::vector<std::string>& arguments :
+       {std::vector<std::string>{"run", "--" + nasty},
+        std::vector<std::string>{"import", "kitti", out(), "-o", out(), "--camera-height", nasty},
+        std::vector<std::string>{"eval", "--align", nasty, out(), out()}}) {
+    EXPECT_LT(oneac_program(arguments).err.size(), 300U);
   }
 }
 

@@ -125,6 +125,32 @@ TEST_F(LoopsVerb, FindTheSecondLapsPlacesAndNoOthers) {
   EXPECT_GT(static_cast<double>(loops), 0.9 * static_cast<double>(places));
 }
 
+/// [m] 1σ of a position along its surest to unsurest axis, root of the trace.
+double position_sigma(const Row& row) {
+  return std::sqrt(row.at("c33") + row.at("c44") + row.at("c55"));
+}
+
+TEST_F(LoopsVerb, TellHowSureTheClosedDriveIs) {
+  const fs::path out = folder("closed");
+  const auto open = read_csv(out / "trajectory_camera.csv");
+  const auto closed = read_csv(out / "trajectory_optimised_camera.csv");
+  const Trajectory poses = read_tum(out / "trajectory_optimised_camera.tum");
+  const Trajectory truth = truth_of("block");
+  ASSERT_EQ(closed.size(), poses.poses.size());
+  std::size_t within = 0;
+  for (std::size_t i = 0; i < closed.size(); ++i) {
+    const Eigen::Vector3d at(closed[i].at("x"), closed[i].at("y"), closed[i].at("z"));
+    EXPECT_LT((at - poses.poses[i].translation()).norm(), 1e-6);
+    const double off = (at - truth.poses[i].translation()).norm();
+    within += off <= 2.0 * position_sigma(closed[i]) + 1e-9 ? 1 : 0;
+  }
+  EXPECT_GT(within, 9 * closed.size() / 10);
+  EXPECT_NEAR(position_sigma(closed.front()), 0.0, 1e-9);
+  // At the end of the second lap, where it has begun: the loops know, the chain has forgotten.
+  EXPECT_LT(position_sigma(closed.back()), 0.7 * position_sigma(open.back()));
+  EXPECT_EQ(read_csv(out / "trajectory_optimised_vehicle.csv").size(), closed.size());
+}
+
 TEST_F(LoopsVerb, WriteTheClosedDriveBesideTheOther) {
   const std::size_t frames = truth_of("block").poses.size();
   const fs::path out = folder("closed");

@@ -1,5 +1,6 @@
 import logging
 
+import conftest
 import numpy as np
 import pytest
 
@@ -61,6 +62,115 @@ def test_bare_images_give_the_same_poses(drive):
     assert by_images.camera_height == pytest.approx(mount[2, 3])
     u1, u2, A = by_images.correspondences
     assert u1.shape == u2.shape == (len(A), 2) and len(A) > 100
+
+
+def test_threads_change_no_result(drive):
+    alone, shared = oneac.FrontEnd(), oneac.FrontEnd(threads=3)
+    for frame in frames_of(drive, count=12):
+        one, other = alone.process(frame), shared.process(frame)
+        np.testing.assert_array_equal(one.T_first_cam, other.T_first_cam)
+    with pytest.raises(ValueError, match="threads = 0, must be at least 1"):
+        oneac.FrontEnd(threads=0)
+
+
+def half(frame):
+    """Nothing of the left half is used."""
+    mask = np.full(frame.image.shape, 255, np.uint8)
+    mask[:, : mask.shape[1] // 2] = 0
+    return mask
+
+
+def test_nothing_is_made_of_what_a_mask_hides(drive):
+    frames = frames_of(drive, count=6)
+    live = oneac.FrontEnd(frames[0].camera, camera_height=1.65)
+    frame_by_frame = oneac.FrontEnd(camera_height=1.65)
+    for f in frames:
+        live.feed(f.image, f.time_s, mask=half(f))
+        frame_by_frame.process(oneac.Frame(f.image, f.time_s, f.camera, f.index, mask=half(f)))
+    for front_end in (live, frame_by_frame):
+        assert front_end.correspondences.u2[:, 0].min() > frames[0].camera.width / 2 - 1
+    with pytest.raises(ValueError, match="mask .*100x90.*480x360|mask .*90.*must be"):
+        live.feed(frames[0].image, 1e9, mask=np.zeros((90, 100), np.uint8))
+    with pytest.raises(ValueError, match="mask is no array|mask has shape"):
+        live.feed(frames[0].image, 1e9, mask="mask.png")
+
+
+def test_a_log_reads_masks_beside_its_images(drive, tmp_path):
+    names = [frame.name for frame in frames_of(drive)]
+    for name in names:
+        (tmp_path / (name.rsplit(".", 1)[0] + ".pgm")).write_bytes(
+            b"P5\n480 360\n255\n" + bytes([0]) * (480 * 180) + bytes([255]) * (480 * 180))
+    frame = frames_of(drive, count=1, mask_dir=tmp_path)[0]
+    assert frame.mask[0, 0] == 0 and frame.mask[-1, -1] == 255 and frame.right_mask is None
+    (tmp_path / (names[1].rsplit(".", 1)[0] + ".pgm")).unlink()
+    with pytest.raises(oneac.InputError, match="no mask for image"):
+        frames_of(drive, mask_dir=tmp_path)
+
+
+def test_right_images_give_metres(drive):
+    frames = frames_of(drive, count=8)
+    height, width = frames[0].image.shape
+    disparity = 16
+    stereo = oneac.FrontEnd(scale={"source": "stereo"})
+    for f in frames:
+        right = np.roll(f.image, -disparity, axis=1)
+        pair = oneac.Frame(f.image, f.time_s, f.camera, f.index, f.T_vehicle_cam, right=right,
+                           baseline_m=0.5)
+        assert pair.right.shape == (height, width) and pair.baseline_m == 0.5
+        stereo.process(pair)
+    for extra in ({"right": right}, {"baseline_m": 0.5}, {"right": right, "baseline_m": np.nan}):
+        with pytest.raises(ValueError, match="baseline_m"):
+            oneac.Frame(f.image, f.time_s, f.camera, **extra)
+    with pytest.raises(ValueError, match="right_mask has 9x9 px, the image has 480x360"):
+        oneac.Frame(f.image, f.time_s, f.camera, right_mask=np.zeros((9, 9), np.uint8))
+
+
+def test_a_front_end_says_what_it_believes(drive):
+    front_end = oneac.FrontEnd(calibration={"refine": "focal"})
+    gps, imu = oneac.read_sensors(drive / "simulated.rawlog")
+    for time, rate in zip(imu.time_s, imu.angular_rate):
+        front_end.add_yaw_rate(time, rate[2])
+    for time, course, speed in zip(gps.time_s, gps.course, gps.speed):
+        if np.isfinite(course) and np.isfinite(speed):
+            front_end.add_course(time, course, speed)
+    for frame in frames_of(drive):
+        front_end.process(frame)
+    front_end.finish()
+    tilt, camera = front_end.tilt, front_end.camera_belief
+    assert abs(tilt.pitch_up) < 0.3 and 0 < tilt.pitch_sigma < 0.1 and tilt.roll_sigma > 0
+    assert camera.given.focal_px == pytest.approx(375)
+    assert camera.used.focal_px == pytest.approx(camera.focal_px, rel=0.05)
+    assert camera.bends >= 0 and camera.sensors == [] and camera.contradicting == []
+    assert 0 <= camera.doubt < 1 and camera.knows_focal in (True, False)
+    assert 0 < front_end.scale_uncertainty < 0.1 and front_end.length_doubt >= 0
+    assert not front_end.stamps_are_wrong and not front_end.car_mask_refused
+    with pytest.raises(ValueError, match="yaw_rate"):
+        front_end.add_yaw_rate(1.0, np.nan)
+    with pytest.raises(ValueError, match="speed"):
+        front_end.add_course(1.0, 0.0, -1.0)
+
+
+def test_the_mount_can_be_given(drive):
+    frame = frames_of(drive, count=1, mount_deg=(0, 5, 180))[0]
+    np.testing.assert_allclose(frame.T_vehicle_cam[:3, :3],
+                               oneac.mount(0, 5, 180)[:3, :3], atol=1e-12)
+    with pytest.raises(ValueError, match="pitch"):
+        frames_of(drive, mount_deg=(0, 95, 0))
+
+
+def test_wheels_of_a_log_are_speeds(tmp_path):
+    conftest.oneac("simulate", "-o", tmp_path, "--frames", 12, "--width", 160, "--height", 120,
+                   "--focal", 125, "--odometry")
+    log = oneac.Rawlog(tmp_path / "simulated.rawlog")
+    told = [log.take_wheels() for _ in log]
+    assert sum(map(len, told)) > 3 and log.report.wheel_readings > 3
+    times = np.concatenate([speeds.time_s for speeds in told])
+    assert (np.diff(times) > 0).all() and all((speeds.speed >= 0).all() for speeds in told)
+    front_end = oneac.FrontEnd(scale={"source": "wheels"})
+    for speeds in told:
+        for time, speed, sigma in zip(speeds.time_s, speeds.speed, speeds.sigma):
+            front_end.add_speed(time, speed, sigma)
+    assert len(log.take_wheels()) == 0
 
 
 def test_colour_images_are_rgb(drive):

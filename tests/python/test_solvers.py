@@ -189,3 +189,39 @@ def test_other_threads_go_on_meanwhile():
     while thread.is_alive():
         rounds += 1
     assert rounds > 1000  # a call that kept the lock would let this thread run some three times
+
+
+def test_the_focal_length_comes_with_the_motion():
+    rng = np.random.default_rng(5)
+    stack = []
+    for _ in range(700):
+        R, t = scenes.motion("planar motion", rng)
+        t = R @ rng.permutation([0.4, 0, 0.5])  # a turn and a travel that show it
+        n = np.array([0.2, 0.5, 0.8])
+        n /= np.linalg.norm(n)
+        x1 = scenes.point(n, rng)
+        x2, A = scenes.correspondence(x1, R, t, n)
+        stack.append((1.25 * x1, 1.25 * x2, A))  # the assumed focal length is 1.25 times too short
+    x1, x2, A = map(np.array, zip(*stack))
+    found = oneac.planar_focal(x1, x2, A)
+    poses = oneac.relpose_1ac_planar_focal(x1, x2, A)
+    np.testing.assert_array_equal(found.valid, poses.count == 1)
+    assert found.valid.mean() > 0.5
+    strong = found.valid & (found.strength > 1e-3)
+    np.testing.assert_allclose(found.focal[strong], 1.25, rtol=1e-6)
+    np.testing.assert_allclose(found.R[strong], poses.R[strong, 0], atol=1e-9)
+    assert np.isnan(found.focal[~found.valid]).all()
+    kept = oneac.planar_focal(x1, x2, A, max_ratio=1.1)
+    assert not (kept.valid & strong).any()
+    one = oneac.planar_focal_of_all(x1[:1], x2[:1], A[:1], weights=[2.0])
+    assert len(one.focal) == 1
+    for call in (lambda: oneac.planar_focal(x1[0], x2[0], A[0]),
+                 lambda: oneac.planar_focal(x1, x2, A, max_ratio=0.5),
+                 lambda: oneac.planar_focal_of_all(x1, x2, A, weights=[1.0])):
+        with pytest.raises(ValueError, match="must"):
+            call()
+
+
+def test_the_list_says_what_a_solver_costs_and_who_pools_it():
+    assert all(solver.typical_ns > 0 for solver in oneac.solvers())
+    assert "relpose_1ac_ground" in [s.name for s in oneac.solvers() if s.in_pool]

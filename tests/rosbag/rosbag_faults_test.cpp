@@ -72,6 +72,11 @@ TEST_F(RosbagFaults, OfAnImageKeepTheImagesBefore) {
       {[](Image& m) { m.height = 0; }, "it says that it has 320x0 pixels"},
       {[](Image& m) { m.width = 4000000000U; }, "it says that it has 4000000000x240 pixels"},
       {[](Image& m) { m.encoding = "16UC1"; }, "its pixels are '16UC1'"},
+      {[](Image& m) {
+         m.encoding = "yuv422";
+         m.width = 159;
+       },
+       "its rows of yuv422 have 159 pixels, an odd number"},
       {[](Image& m) { m.header.stamp.nsec = 4000000000U; }, "its time is none"},
       {[](Image& m) {
          m.height = 120;

@@ -94,9 +94,22 @@ TEST_F(Rosbag, KeepsThePixelsOfEachEncoding) {
   const cv::Mat rgb(48, 64, CV_8UC3, cv::Scalar(200, 100, 10));
   const cv::Mat bgra(48, 64, CV_8UC4, cv::Scalar(10, 100, 200, 50));
   const cv::Mat rgba(48, 64, CV_8UC4, cv::Scalar(200, 100, 10, 50));
-  const std::map<std::string, std::pair<cv::Mat, cv::Mat>> cases{
-      {"mono8", {one, one}},  {"mono16", {deep, deep}}, {"bgr8", {bgr, bgr}}, {"rgb8", {rgb, bgr}},
-      {"bgra8", {bgra, bgr}}, {"rgba8", {rgba, bgr}},   {"8UC1", {one, one}}, {"8UC3", {bgr, bgr}}};
+  const cv::Mat deep_bgr(48, 64, CV_16UC3, cv::Scalar(1000, 10000, 60000));
+  const cv::Mat deep_rgb(48, 64, CV_16UC3, cv::Scalar(60000, 10000, 1000));
+  const cv::Mat deep_bgra(48, 64, CV_16UC4, cv::Scalar(1000, 10000, 60000, 5));
+  const cv::Mat deep_rgba(48, 64, CV_16UC4, cv::Scalar(60000, 10000, 1000, 5));
+  const std::map<std::string, std::pair<cv::Mat, cv::Mat>> cases{{"mono8", {one, one}},
+                                                                 {"mono16", {deep, deep}},
+                                                                 {"bgr8", {bgr, bgr}},
+                                                                 {"rgb8", {rgb, bgr}},
+                                                                 {"bgra8", {bgra, bgr}},
+                                                                 {"rgba8", {rgba, bgr}},
+                                                                 {"8UC1", {one, one}},
+                                                                 {"8UC3", {bgr, bgr}},
+                                                                 {"bgr16", {deep_bgr, deep_bgr}},
+                                                                 {"rgb16", {deep_rgb, deep_bgr}},
+                                                                 {"bgra16", {deep_bgra, deep_bgr}},
+                                                                 {"rgba16", {deep_rgba, deep_bgr}}};
   for (const auto& [encoding, images] : cases) {
     {
       rosbag::Bag made(bag().string(), rosbag::bagmode::Write);
@@ -114,29 +127,37 @@ TEST_F(Rosbag, KeepsThePixelsOfEachEncoding) {
 }
 
 TEST_F(Rosbag, ReadsThePixelsOfABigEndianMachine) {
-  {
-    rosbag::Bag made(bag().string(), rosbag::bagmode::Write);
-    for (int i = 0; i < 2; ++i) {
-      sensor_msgs::Image message =
-          image_message(cv::Mat(48, 64, CV_16UC1, cv::Scalar(0x1234)), "mono16", i);
-      message.is_bigendian = 1;
-      made.write("/image", stamp(i), message);
-    }
-  }
+  const std::map<std::string, std::pair<cv::Mat, cv::Scalar>> cases{
+      {"mono16", {cv::Mat(48, 64, CV_16UC1, cv::Scalar(0x1234)), {0x3412}}},
+      {"rgb16",
+       {cv::Mat(48, 64, CV_16UC3, cv::Scalar(0x1234, 0x0100, 0x0002)), {0x0200, 0x0001, 0x3412}}}};
   write_text(scratch() / "cameras.txt", "1 PINHOLE 64 48 50 50 32 24\n");
-  import_well({"--calibration", (scratch() / "cameras.txt").string()});
-  const cv::Mat got = cv::imread(imported("000001.png").string(), cv::IMREAD_UNCHANGED);
-  EXPECT_EQ(got.at<std::uint16_t>(10, 10), 0x3412);
+  for (const auto& [encoding, images] : cases) {
+    {
+      rosbag::Bag made(bag().string(), rosbag::bagmode::Write);
+      for (int i = 0; i < 2; ++i) {
+        sensor_msgs::Image message = image_message(images.first, encoding, i);
+        message.is_bigendian = 1;
+        made.write("/image", stamp(i), message);
+      }
+    }
+    import_well({"--calibration", (scratch() / "cameras.txt").string()});
+    const cv::Mat got = cv::imread(imported("000001.png").string(), cv::IMREAD_UNCHANGED);
+    const cv::Mat expected(got.rows, got.cols, images.first.type(), images.second);
+    ASSERT_EQ(got.type(), expected.type()) << encoding;
+    EXPECT_EQ(cv::norm(got, expected, cv::NORM_INF), 0.0) << encoding;
+  }
 }
 
-/// A surface of one colour, seen through the filters of a sensor.
-cv::Mat mosaic(const std::string& pattern) {
+/// A surface of one colour, seen through the filters of a sensor whose levels are `step` apart.
+template <class Level>
+cv::Mat mosaic(const std::string& pattern, int step) {
   const std::map<char, int> level{{'b', 10}, {'g', 100}, {'r', 200}};
-  cv::Mat pixels(48, 64, CV_8UC1);
+  cv::Mat pixels(48, 64, cv::DataType<Level>::type);
   for (int y = 0; y < pixels.rows; ++y) {
     for (int x = 0; x < pixels.cols; ++x) {
       const auto filter = static_cast<std::size_t>(2 * (y % 2) + x % 2);
-      pixels.at<std::uint8_t>(y, x) = static_cast<std::uint8_t>(level.at(pattern[filter]));
+      pixels.at<Level>(y, x) = static_cast<Level>(step * level.at(pattern[filter]));
     }
   }
   return pixels;
@@ -145,16 +166,57 @@ cv::Mat mosaic(const std::string& pattern) {
 TEST_F(Rosbag, TakesTheColoursOfEachBayerPattern) {
   write_text(scratch() / "cameras.txt", "1 PINHOLE 64 48 50 50 32 24\n");
   for (const std::string pattern : {"rggb", "bggr", "gbrg", "grbg"}) {
+    for (const int step : {1, 16}) {  // 8 bits, and 12 of 16
+      const std::string encoding = "bayer_" + pattern + (step == 1 ? "8" : "16");
+      const cv::Mat pixels =
+          step == 1 ? mosaic<std::uint8_t>(pattern, step) : mosaic<std::uint16_t>(pattern, step);
+      {
+        rosbag::Bag made(bag().string(), rosbag::bagmode::Write);
+        for (int i = 0; i < 2; ++i) {
+          made.write("/image", stamp(i), image_message(pixels, encoding, i));
+        }
+      }
+      import_well({"--calibration", (scratch() / "cameras.txt").string()});
+      cv::Mat got = cv::imread(imported("000001.png").string(), cv::IMREAD_UNCHANGED);
+      ASSERT_EQ(got.type(), CV_MAKETYPE(pixels.depth(), 3)) << encoding;
+      got.convertTo(got, CV_8U, 1.0 / step);
+      EXPECT_EQ(got.at<cv::Vec3b>(20, 20), cv::Vec3b(10, 100, 200)) << encoding;
+      EXPECT_EQ(got.at<cv::Vec3b>(21, 21), cv::Vec3b(10, 100, 200)) << encoding;
+    }
+  }
+}
+
+/// Two bytes a pixel: Y of each, U and V of two pixels, from what BT.601 makes of a colour.
+cv::Mat yuv422(bool y_first) {
+  constexpr std::uint8_t kU = 90, kV = 190;
+  cv::Mat pixels(48, 64, CV_8UC2);
+  for (int y = 0; y < pixels.rows; ++y) {
+    for (int x = 0; x < pixels.cols; ++x) {
+      const auto level = static_cast<std::uint8_t>(60 + 2 * x);
+      const std::uint8_t colour = x % 2 == 0 ? kU : kV;
+      pixels.at<cv::Vec2b>(y, x) = y_first ? cv::Vec2b(level, colour) : cv::Vec2b(colour, level);
+    }
+  }
+  return pixels;
+}
+
+TEST_F(Rosbag, TakesTheColoursOfYuv422InEitherOrder) {
+  write_text(scratch() / "cameras.txt", "1 PINHOLE 64 48 50 50 32 24\n");
+  for (const auto& [encoding, y_first] : std::map<std::string, bool>{
+           {"yuv422", false}, {"uyvy", false}, {"yuv422_yuy2", true}, {"yuyv", true}}) {
     {
       rosbag::Bag made(bag().string(), rosbag::bagmode::Write);
       for (int i = 0; i < 2; ++i) {
-        made.write("/image", stamp(i), image_message(mosaic(pattern), "bayer_" + pattern + "8", i));
+        made.write("/image", stamp(i), image_message(yuv422(y_first), encoding, i));
       }
     }
     import_well({"--calibration", (scratch() / "cameras.txt").string()});
     const cv::Mat got = cv::imread(imported("000001.png").string());
-    EXPECT_EQ(got.at<cv::Vec3b>(20, 20), cv::Vec3b(10, 100, 200)) << pattern;
-    EXPECT_EQ(got.at<cv::Vec3b>(21, 21), cv::Vec3b(10, 100, 200)) << pattern;
+    const auto pixel = got.at<cv::Vec3b>(20, 20);  // Y = 100, U = 90, V = 190
+    constexpr double kLuma = 1.164 * (100 - 16);
+    EXPECT_NEAR(pixel[0], kLuma + 2.018 * (90 - 128), 1.0) << encoding;
+    EXPECT_NEAR(pixel[1], kLuma - 0.391 * (90 - 128) - 0.813 * (190 - 128), 1.0) << encoding;
+    EXPECT_NEAR(pixel[2], kLuma + 1.596 * (190 - 128), 1.0) << encoding;
   }
 }
 

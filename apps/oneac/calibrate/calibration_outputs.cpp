@@ -1,5 +1,7 @@
 #include "calibrate/calibration_outputs.h"
 
+#include "run/run_outputs.h"
+
 #include "oneac/base/median.h"
 #include "oneac/base/number_text.h"
 #include "oneac/base/version.h"
@@ -170,7 +172,7 @@ std::string sensors_text(const CameraHeight& height) {
   return text;
 }
 
-/// One per sensor that told something.
+/// One per sensor that told something, or that cannot be what it says.
 std::vector<std::string> turn_lines(const Calibration& c) {
   std::vector<std::string> lines;
   for (const TurnEvidence& turn : c.turns) lines.push_back(text_of(turn, c.drive.raw_camera.fx));
@@ -179,6 +181,8 @@ std::vector<std::string> turn_lines(const Calibration& c) {
                     " contradicts what else tells the focal length and is not used; "
                     "1 sigma is wider for it");
   }
+  const std::string strange = about_strange_gyroscope(c.drive);
+  if (!strange.empty()) lines.push_back(strange);
   return lines;
 }
 

@@ -1,5 +1,6 @@
 #include "run_loops.h"
 
+#include "closed_covariances.h"
 #include "keyframe_images.h"
 #include "odometry_edges.h"
 #include "run_global.h"
@@ -11,7 +12,9 @@
 #include "oneac/base/number_text.h"
 #include "oneac/base/ordered_pipeline.h"
 #include "oneac/frontend/map_formats.h"
+#include "oneac/frontend/trajectory_uncertainty.h"
 #include "oneac/geometry/levelling.h"
+#include "oneac/loops/graph_covariance.h"
 #include "oneac/loops/loop_formats.h"
 
 #include <algorithm>
@@ -63,6 +66,16 @@ LoopCamera camera_of(const DriveRecord& record, const RunOptions& options) {
   camera.mask_polygon = options.front_end.features.mask.polygon;
   camera.mask_image = options.front_end.features.mask.image;
   return camera;
+}
+
+/// The largest of the logs': one car, one camera.
+SharedErrors shared_errors(const std::vector<RecordedDrive>& drives) {
+  SharedErrors shared;
+  for (const RecordedDrive& drive : drives) {
+    shared.length = std::max(shared.length, drive.record->common_length_sigma);
+    shared.turn = std::max(shared.turn, shared_turn_sigma(drive.record->camera_belief.doubt));
+  }
+  return shared;
 }
 
 /// @pre there are keyframes
@@ -158,6 +171,10 @@ ClosedDrive drive_of(const ClosedDrives& all, std::size_t begin, std::size_t end
     drive.graph.loops.push_back(loop);
   }
   const bool moved = !drive.graph.loops.empty() || drive.loops_to_others > 0;
+  if (moved) {
+    drive.covariances.assign(all.covariances.begin() + static_cast<std::ptrdiff_t>(begin),
+                             all.covariances.begin() + static_cast<std::ptrdiff_t>(end));
+  }
   drive.frames =
       moved ? moved_frames(record, drive.graph.T_first_cam) : record.camera_trajectory().poses;
   return drive;
@@ -216,6 +233,9 @@ ClosedDrives close_loops(const std::vector<RecordedDrive>& drives) {
   closed.graph = optimise_pose_graph(closed.keyframes, found.loops);
   closed.report.contradicted += found.loops.size() - closed.graph.loops.size();
   if (drives.front().options->run.global_ba) adjust_closed_drives(drives, closed);
+  if (!closed.graph.loops.empty()) {
+    closed.covariances = closed_covariances(closed.keyframes, closed.graph, shared_errors(drives));
+  }
   std::size_t begin = 0;
   for (std::size_t log = 0; log < drives.size(); ++log) {
     const std::size_t end = begin + drives[log].record->keyframes.size();
@@ -235,6 +255,10 @@ void write_closed_drive(const DriveRecord& record, const ClosedDrive& closed,
   write("trajectory_optimised_camera.kitti", format_kitti(camera));
   write("trajectory_optimised_camera.tum", format_tum(camera));
   write("trajectory_optimised_vehicle.tum", format_tum(closed.vehicle_trajectory(record)));
+  write("trajectory_optimised_camera.csv",
+        format_pose_covariances(closed_camera_poses(record, closed)));
+  write("trajectory_optimised_vehicle.csv",
+        format_pose_covariances(closed_vehicle_poses(record, closed)));
   if (record.keyframes.empty()) return;
   DriveRecord moved;
   moved.keyframes = closed.moved_keyframes(record);

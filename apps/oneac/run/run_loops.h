@@ -22,6 +22,8 @@ struct ClosedDrive {
   LoopReport report;                      ///< of the search, which may be in several logs
   ClosedGraph graph;                      ///< its own keyframes and the loops between them
   std::vector<Eigen::Isometry3d> frames;  ///< T_first_cam of every processed frame, closed
+  /// Of (θ, p) of each keyframe in that frame, see closed_covariances(); empty without loops
+  std::vector<Eigen::Matrix<double, 6, 6>> covariances;
   Eigen::Isometry3d frame_mount = Eigen::Isometry3d::Identity();  ///< T_vehicle_cam of that first
   std::string note;                   ///< one line when the images could not be read again, else ""
   std::size_t log = 0, frame_of = 0;  ///< which of the logs, and whose first camera the frame is
@@ -48,8 +50,9 @@ struct RecordedDrive {
 struct ClosedDrives {
   std::vector<LoopKeyframe> keyframes;  ///< of all, one log after the other
   LoopReport report;
-  ClosedGraph graph;                   ///< of all
-  bool searched = false;               ///< to the end
+  ClosedGraph graph;                                     ///< of all
+  std::vector<Eigen::Matrix<double, 6, 6>> covariances;  ///< see ClosedDrive, of all
+  bool searched = false;                                 ///< to the end
   std::vector<ClosedDrive> drives;     ///< each for itself, in the frame that it was joined to
   std::optional<GlobalReport> global;  ///< of the global adjustment, where it was asked for
   std::vector<std::vector<std::optional<Eigen::Vector3d>>> points;  ///< per log, see ClosedDrive

@@ -1,5 +1,6 @@
 #include "run_outputs.h"
 
+#include "gyroscope_check.h"
 #include "odometry_edges.h"
 
 #include "oneac/base/atomic_file.h"
@@ -242,6 +243,18 @@ void fail_if_incomplete(const DriveRecord& record) {
   if (record.interrupted) throw std::runtime_error("interrupted; what was computed is written");
 }
 
+std::string about_strange_gyroscope(const DriveRecord& record) {
+  const std::vector<ImuSample>& imu = record.source.reference.imu;
+  // Nor are the images to be believed where camera or mount are wrong.
+  if (imu.empty() || !record.setup_faults.empty()) return "";
+  std::vector<bool> carried;
+  for (const FrameResult& frame : record.frames) {
+    carried.push_back(frame.step && frame.step->status != StepStatus::kPredicted);
+  }
+  const auto fault = fault_of_gyroscope(record.vehicle_trajectory(), carried, imu);
+  return fault ? about_gyroscope(*fault) : "";
+}
+
 std::vector<std::string> notes_about(const DriveRecord& record) {
   std::vector<std::string> notes;
   const SourceReport& source = record.source;
@@ -275,6 +288,9 @@ std::vector<std::string> notes_about(const DriveRecord& record) {
   }
   if (const std::string turns = about_contradicting_turns(record); !turns.empty()) {
     notes.push_back(turns);
+  }
+  if (const std::string strange = about_strange_gyroscope(record); !strange.empty()) {
+    notes.push_back(strange);
   }
   if (record.stamps_are_wrong && record.setup_faults.empty()) {
     notes.push_back(

@@ -26,6 +26,10 @@ void fail_if_incomplete(const DriveRecord& record);
 /// @throws as fail_if_incomplete, else InputError naming the log
 void fail_if_empty(const DriveRecord& record, const std::string& log);
 
+/// The line about a gyroscope that does not turn with the images, see fault_of_gyroscope(); else
+/// "".
+[[nodiscard]] std::string about_strange_gyroscope(const DriveRecord& record);
+
 /// The lines that tell the user about missing images, height, scale: one each, for stderr.
 [[nodiscard]] std::vector<std::string> notes_about(const DriveRecord& record);
 

@@ -4,6 +4,7 @@
 #include "oneac/base/printable.h"
 
 #include <algorithm>
+#include <cstddef>
 #include <iostream>
 
 namespace oneac::app {
@@ -31,6 +32,17 @@ std::string about_verb(const CLI::App& program, const std::vector<std::string>& 
          nearest_name(shortened(word, kLongestWord), verbs) + "'? There are: " + all;
 }
 
+/// Words as they were typed, none of them longer than a line.
+std::string with_short_words(const std::string& text) {
+  std::string line;
+  for (std::size_t at = 0; at < text.size();) {
+    const std::size_t end = std::min(text.find(' ', at), text.size());
+    line += (at == 0 ? "" : " ") + shortened(text.substr(at, end - at), kLongestWord);
+    at = end + 1;
+  }
+  return line;
+}
+
 }  // namespace
 
 int answer_to(const CLI::ParseError& error, const CLI::App& program,
@@ -39,7 +51,7 @@ int answer_to(const CLI::ParseError& error, const CLI::App& program,
   const std::string verb = about_verb(program, arguments);
   if (!verb.empty()) return end_with(verb, 2);
   const std::string of = arguments.front().front() == '-' ? "" : arguments.front() + " ";
-  return end_with(std::string(error.what()) + "; see oneac " + of + "--help", 2);
+  return end_with(with_short_words(error.what()) + "; see oneac " + of + "--help", 2);
 }
 
 int end_with(const std::string& what, int code) {

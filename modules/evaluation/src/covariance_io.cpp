@@ -143,10 +143,15 @@ std::string format_pose_covariances(const std::vector<PoseCovarianceRow>& rows) 
 
 // R' = F R Fᵀ and p' = F p + f − R' f of F, f: θ' = F θ, δp' = F δp + [R' f]× θ'.
 PoseCovarianceRow carried_to(const Eigen::Isometry3d& T_fixed, const PoseCovarianceRow& row) {
+  return carried_to(T_fixed, T_fixed, row);
+}
+
+PoseCovarianceRow carried_to(const Eigen::Isometry3d& T_world, const Eigen::Isometry3d& T_body,
+                             const PoseCovarianceRow& row) {
   PoseCovarianceRow carried = row;
-  carried.T_world_body = T_fixed * row.T_world_body * T_fixed.inverse();
-  const Eigen::Matrix3d F = T_fixed.linear();
-  const Eigen::Vector3d lever = carried.T_world_body.linear() * T_fixed.translation();
+  carried.T_world_body = T_world * row.T_world_body * T_body.inverse();
+  const Eigen::Matrix3d F = T_world.linear();
+  const Eigen::Vector3d lever = carried.T_world_body.linear() * T_body.translation();
   Eigen::Matrix<double, 6, 6> J = Eigen::Matrix<double, 6, 6>::Zero();
   J.topLeftCorner<3, 3>() = F;
   J.bottomRightCorner<3, 3>() = F;

@@ -107,6 +107,7 @@ FrameResult FrontEnd::process(PreparedFrame prepared) {
   prepared.frame.image = {};
   prepared.frame.mask = {};
   prepared.frame.right = {};
+  prepared.frame.right_mask = {};
   if (!started_) {
     started_ = true;
     FrameResult first = odometry_->start(frame);
@@ -161,9 +162,10 @@ MotionHint FrontEnd::hint() const {
   return hint;
 }
 
-std::optional<FrameResult> FrontEnd::feed(const mrpt::obs::CObservation::Ptr& observation) {
+std::optional<FrameResult> FrontEnd::feed(const mrpt::obs::CObservation::Ptr& observation,
+                                          const ImageMasks& masks) {
   if (!observation) throw std::invalid_argument("FrontEnd::feed: observation = null");
-  Intake intake = intake_.take(*observation);
+  Intake intake = intake_.take(*observation, masks);
   if (intake.passed_over) log_first(*intake.passed_over);
   if (intake.inertial) {
     const auto& rate = intake.inertial->angular_rate;

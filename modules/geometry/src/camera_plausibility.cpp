@@ -63,6 +63,7 @@ std::optional<std::string> aspect_fault(const PinholeCamera& camera) {
 }
 
 constexpr double kShortest_px = 1.0, kFurthest_px = 1e6;
+constexpr double kMostAnamorphic = 4.0;
 constexpr double kLeastStretch = 0.05, kMostStretch = 20.0, kMostAcross = 1.0;
 
 bool is_possible_focal(double focal) {
@@ -100,6 +101,11 @@ std::string short_text(double value) {
 std::string impossible_camera(const PinholeCamera& camera) {
   if (!is_possible_focal(camera.fx) || !is_possible_focal(camera.fy)) {
     return "no camera has the focal lengths " + short_text(camera.fx) + " and " +
+           short_text(camera.fy) + " px";
+  }
+  // An anamorphic lens stretches by two.
+  if (std::max(camera.fx, camera.fy) > kMostAnamorphic * std::min(camera.fx, camera.fy)) {
+    return "no camera has focal lengths as different as " + short_text(camera.fx) + " and " +
            short_text(camera.fy) + " px";
   }
   if (!(std::abs(camera.cx) <= kFurthest_px) || !(std::abs(camera.cy) <= kFurthest_px)) {

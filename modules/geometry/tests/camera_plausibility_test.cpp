@@ -44,6 +44,15 @@ TEST(CameraPlausibility, FindsNothingAgainstCamerasOfVehicles) {
   EXPECT_TRUE(camera_faults(wide).empty());
 }
 
+TEST(CameraPlausibility, NoCameraSquashesItsImageByMoreThanFour) {
+  PinholeCamera squashed = kitti();
+  squashed.fy = squashed.fx / 10.0;
+  EXPECT_TRUE(has(impossible_camera(squashed), "as different as 721.538 and 72.1538 px"))
+      << impossible_camera(squashed);
+  squashed.fy = squashed.fx / 2.0;  // anamorphic
+  EXPECT_EQ(impossible_camera(squashed), "");
+}
+
 TEST(CameraPlausibility, NamesTheKOfALargerImage) {
   PinholeCamera halved = kitti();
   halved.width /= 2;

@@ -16,15 +16,6 @@ constexpr double kScaleMemory_m = 60.0;
 constexpr double kAnywhere_m2 = 1e6, kAnyHeading = 10.0;
 constexpr double kLeap_m = 1e7;  // [m] from a part to the next
 
-/// Of (translation, rotation vector) on the right: through T, from its right to its left side.
-Matrix6 adjoint(const Eigen::Isometry3d& T) {
-  Matrix6 A = Matrix6::Zero();
-  A.topLeftCorner<3, 3>() = T.linear();
-  A.bottomRightCorner<3, 3>() = T.linear();
-  A.topRightCorner<3, 3>() = cross_matrix(T.translation()) * T.linear();
-  return A;
-}
-
 Matrix6 carried(const Matrix6& covariance, const Eigen::Isometry3d& T) {
   const Matrix6 A = adjoint(T);
   return A * covariance * A.transpose();
@@ -66,6 +57,18 @@ UncertainPose inverse_of(const RelativePose& T_2_1, const Matrix6& covariance) {
 }
 
 }  // namespace
+
+Matrix6 adjoint(const Eigen::Isometry3d& T) {
+  Matrix6 A = Matrix6::Zero();
+  A.topLeftCorner<3, 3>() = T.linear();
+  A.bottomRightCorner<3, 3>() = T.linear();
+  A.topRightCorner<3, 3>() = cross_matrix(T.translation()) * T.linear();
+  return A;
+}
+
+Matrix6 covariance_of(const LoopKeyframe& keyframe) {
+  return known_or_anything(keyframe.covariance);
+}
 
 UncertainPose inverse(const UncertainPose& a) {
   return {a.T.inverse(), carried(a.covariance, a.T)};
@@ -149,7 +152,7 @@ Eigen::Matrix<double, 6, 6> covariance_of_steps(const std::vector<OdometryStep>&
 }
 
 Eigen::Matrix<double, 6, 6> g2o_information(const LoopKeyframe& keyframe) {
-  return internal::information_of(internal::known_or_anything(keyframe.covariance));
+  return internal::information_of(internal::covariance_of(keyframe));
 }
 
 Eigen::Matrix<double, 6, 6> g2o_information(const LoopConstraint& loop) {

@@ -28,6 +28,10 @@ struct UncertainPose {
 [[nodiscard]] Vector6 small_motion(const Eigen::Isometry3d& T);
 /// As T_first_second.
 [[nodiscard]] UncertainPose of_loop(const LoopConstraint& loop);
+/// Of the step to a keyframe; of one that nothing is known of, that of anywhere.
+[[nodiscard]] Matrix6 covariance_of(const LoopKeyframe& keyframe);
+/// Of (translation, rotation vector) on the right: through T, from its right to its left side.
+[[nodiscard]] Matrix6 adjoint(const Eigen::Isometry3d& T);
 
 /// The odometry between any two keyframes, with what adds up between them.
 class Chain {

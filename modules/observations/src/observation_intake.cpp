@@ -12,6 +12,8 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <stdexcept>
+#include <string>
 #include <utility>
 
 namespace oneac {
@@ -33,6 +35,17 @@ bool follows(const std::optional<std::string>& followed, const std::string& labe
 void require_sound_pose(const CameraView& view, const std::string& where) {
   if (view.has_sound_pose()) return;
   throw InputError(where, damaged_pose(view), "correct it where the observation is made");
+}
+
+/// @throws std::invalid_argument when the mask is not of the image's size
+void require_size(const ImageView& mask, const GreyImage& image, const std::string& name) {
+  const bool same = mask.width == image.width() && mask.height == image.height();
+  if (mask.empty() || same) return;
+  const auto size = [](int width, int height) {
+    return std::to_string(width) + "x" + std::to_string(height);
+  };
+  throw std::invalid_argument("the mask of " + name + " has " + size(mask.width, mask.height) +
+                              " pixels, must be " + size(image.width(), image.height()));
 }
 
 std::string short_name(const CameraView& view, const std::string& where) {
@@ -66,7 +79,7 @@ const char* to_string(PassedOver reason) {
 
 ObservationIntake::ObservationIntake(IntakeOptions options) : options_(std::move(options)) {}
 
-Intake ObservationIntake::take(const CObservation& observation) {
+Intake ObservationIntake::take(const CObservation& observation, const ImageMasks& masks) {
   if (dynamic_cast<const CObservationIMU*>(&observation) != nullptr) {
     return take_inertial(observation);
   }
@@ -76,7 +89,7 @@ Intake ObservationIntake::take(const CObservation& observation) {
   if (dynamic_cast<const mrpt::obs::CObservationOdometry*>(&observation) != nullptr) {
     return take_wheels(observation);
   }
-  return take_image(observation);
+  return take_image(observation, masks);
 }
 
 std::string ObservationIntake::scaling_note() const {
@@ -134,7 +147,7 @@ bool ObservationIntake::is_followed(const CameraView& view) const {
   return any || (!options_.camera.empty() && view.matches(options_.camera));
 }
 
-Intake ObservationIntake::take_image(const CObservation& observation) {
+Intake ObservationIntake::take_image(const CObservation& observation, const ImageMasks& masks) {
   const auto views = camera_views(observation);
   if (views.empty()) return pass(PassedOver::kOtherClass);
   const auto view = std::find_if(views.begin(), views.end(),
@@ -143,12 +156,13 @@ Intake ObservationIntake::take_image(const CObservation& observation) {
   const auto right = std::find_if(
       view + 1, views.end(), [](const CameraView& v) { return v.side == CameraView::Side::right; });
   const bool wanted = options_.reader.stereo && right != views.end();
-  return read(*view, wanted ? &*right : nullptr, observation);
+  return read({&*view, wanted ? &*right : nullptr, masks}, observation);
 }
 
 // The checks stand in the order in which RawlogSource makes them.
-Intake ObservationIntake::read(const CameraView& view, const CameraView* right,
-                               const CObservation& observation) {
+Intake ObservationIntake::read(const Sight& sight, const CObservation& observation) {
+  const CameraView& view = *sight.view;
+  const CameraView* right = sight.right;
   CameraFrame frame;
   frame.index = seen_++;
   const std::string where = "camera '" + view.name() + "': image " + std::to_string(frame.index);
@@ -167,7 +181,7 @@ Intake ObservationIntake::read(const CameraView& view, const CameraView* right,
   frame.T_vehicle_cam = reader_->mount(view);
   if (right != nullptr && is_there(*right->pixels)) frame.baseline_m = baseline;
   frame.name = short_name(view, where);
-  add_pixels(view, right, where, frame);
+  add_pixels(sight, where, frame);
   if (repeats_.repeats(frame.image.view())) return pass(PassedOver::kRepeated);
   last_time_ = frame.time_s;
   ++counts_.images;
@@ -176,14 +190,22 @@ Intake ObservationIntake::read(const CameraView& view, const CameraView* right,
   return intake;
 }
 
-void ObservationIntake::add_pixels(const CameraView& view, const CameraView* right,
-                                   const std::string& where, CameraFrame& frame) const {
+void ObservationIntake::add_pixels(const Sight& sight, const std::string& where,
+                                   CameraFrame& frame) const {
   const StageTimer timer(frame.decode_ms);
-  const auto rectified = [this](const CameraView& of, const std::string& its) {
-    return reader_->rectify(grey_of(*of.pixels, its), name_of(*of.pixels, its));
+  const auto rectified = [this](const CameraView& of, const std::string& its,
+                                const ImageView& its_mask, GreyImage& mask) {
+    GreyImage stored = grey_of(*of.pixels, its);
+    const std::string name = name_of(*of.pixels, its);
+    require_size(its_mask, stored, name);
+    GreyImage image = reader_->rectify(std::move(stored), name);
+    if (!its_mask.empty()) mask = reader_->rectify(GreyImage(its_mask), "the mask of " + name);
+    return image;
   };
-  frame.image = rectified(view, where);
-  if (frame.baseline_m > 0.0) frame.right = rectified(*right, where + " (right)");
+  frame.image = rectified(*sight.view, where, sight.masks.image, frame.mask);
+  if (frame.baseline_m > 0.0) {
+    frame.right = rectified(*sight.right, where + " (right)", sight.masks.right, frame.right_mask);
+  }
   frame.camera = reader_->rectified_camera(frame.image);
   frame.raw_camera = reader_->raw_camera(frame.image);
 }

@@ -63,6 +63,35 @@ TEST(ObservationIntake, TakesEitherHalfOfAPair) {
   EXPECT_NEAR(stereo.baseline_m, 0.12, 1e-12);
 }
 
+TEST(ObservationIntake, TakesMasksAlongWithTheImages) {
+  const TemporaryFolder folder;
+  const std::string base = (folder.path() / "a").string();
+  cv::imwrite(base + "_left.png", test::ramp(10));
+  cv::imwrite(base + "_right.png", test::ramp(20));
+  GreyImage left(test::kWidth, test::kHeight, 255), right(test::kWidth, test::kHeight, 255);
+  left.row(3)[4] = 0;
+  right.row(5)[6] = 0;
+  IntakeOptions options;
+  options.reader.stereo = true;
+  ObservationIntake intake(options);
+  const auto pair = test::external_pair("PAIR", 0, base);
+  const CameraFrame frame = intake.take(*pair, {left.view(), right.view()}).frame.value();
+  ASSERT_EQ(frame.mask.width(), test::kWidth);
+  ASSERT_EQ(frame.right_mask.height(), test::kHeight);
+  EXPECT_EQ(frame.mask.row(3)[4], 0);
+  EXPECT_EQ(frame.mask.row(5)[6], 255);
+  EXPECT_EQ(frame.right_mask.row(5)[6], 0);
+  EXPECT_TRUE(frame_of(intake, *test::external_pair("PAIR", 1, base)).mask.empty());
+}
+
+TEST(ObservationIntake, RefusesAMaskOfAnotherSizeAndGoesOn) {
+  ObservationIntake intake({});
+  const GreyImage small(20, 10, 255);
+  const auto image = test::stored_image("CAM", 0.0, test::ramp(0));
+  EXPECT_THROW(static_cast<void>(intake.take(*image, {small.view(), {}})), std::invalid_argument);
+  EXPECT_TRUE(intake.take(*image).frame);
+}
+
 TEST(ObservationIntake, CountsWhatItPassesOverByReason) {
   ObservationIntake intake({});
   EXPECT_TRUE(intake.take(*test::stored_image("CAM", 1.0, test::ramp(0))).frame);

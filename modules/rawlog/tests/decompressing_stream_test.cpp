@@ -85,6 +85,34 @@ TEST_P(CompressedStream, ReadsConcatenatedFiles) {
 INSTANTIATE_TEST_SUITE_P(Packings, CompressedStream,
                          ::testing::Values(Packing::gzip, Packing::zstd));
 
+TEST_F(PackedLog, OfAFileThatWasPackedTwiceIsRead) {
+  for (const Packing outer : {Packing::gzip, Packing::zstd}) {
+    const std::string inner = test::packed_bytes(long_data(), Packing::gzip);
+    std::string bytes = test::packed_bytes(inner, outer);
+    test::write_bytes(file_, bytes);
+    DecompressingStream stream(file_);
+    EXPECT_TRUE(read_all(stream) == long_data());
+    EXPECT_TRUE(stream.at_end());
+    EXPECT_EQ(stream.fault(), "");
+    bytes.resize(bytes.size() * 3 / 4);
+    test::write_bytes(file_, bytes);
+    DecompressingStream cut(file_);
+    const std::string read = read_all(cut);
+    EXPECT_GT(read.size(), long_data().size() / 2);
+    EXPECT_TRUE(read == long_data().substr(0, read.size()));
+    EXPECT_NE(cut.fault().find("ends early"), std::string::npos) << cut.fault();
+  }
+}
+
+TEST_F(PackedLog, OfAFewBytesIsRead) {
+  for (const std::string data : {"", "a", "abc"}) {
+    test::write_bytes(file_, test::packed_bytes(data, Packing::gzip));
+    DecompressingStream stream(file_);
+    EXPECT_EQ(read_all(stream), data);
+    EXPECT_EQ(stream.fault(), "");
+  }
+}
+
 TEST_F(PackedLog, RefusesReadsOfAbsurdSize) {
   test::write_bytes(file_, long_data());
   DecompressingStream stream(file_);

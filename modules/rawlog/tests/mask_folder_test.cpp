@@ -60,6 +60,47 @@ TEST_F(Masks, SayWhichIsMissingOrThereTwice) {
   EXPECT_NE(none.find("none: no such folder of masks"), std::string::npos) << none;
 }
 
+TEST_F(Masks, OfRightImagesAreThoseOfTheirNamesOrOfAFolderOfTheirOwn) {
+  add("a_left.png");
+  add("a_right.png");
+  add("000003.png");
+  const MaskFolder beside(masks());
+  EXPECT_EQ(beside.mask_of_right("a_right.jpg", "a_left.jpg", 0).filename(), "a_right.png");
+  EXPECT_EQ(beside.mask_of_right("b_right.jpg", "b_left.jpg", 1), "");
+  EXPECT_EQ(beside.mask_of_right("000003.png", "000003.png", 3), "");  // that is the left one's
+  EXPECT_EQ(beside.mask_of_right("", "", 3), "");
+  fs::create_directories(masks() / "right");
+  add("right/000003.png");
+  const MaskFolder apart(masks());
+  EXPECT_EQ(apart.mask_of_right("000003.png", "000003.png", 3), masks() / "right" / "000003.png");
+  EXPECT_EQ(apart.mask_of_right("", "", 3), masks() / "right" / "000003.png");
+  const std::string missing = test::input_error(
+      [&] { static_cast<void>(apart.mask_of_right("000004.png", "000004.png", 4)); });
+  EXPECT_NE(missing.find("no mask for image 000004.png"), std::string::npos) << missing;
+}
+
+TEST_F(Masks, OfPairsGoWithBothImagesThroughTheSource) {
+  const std::string base = (folder_.path() / "a").string();
+  cv::imwrite(base + "_left.png", test::ramp(10));
+  cv::imwrite(base + "_right.png", test::ramp(20));
+  SourceOptions options;
+  options.log = folder_.path() / "drive.rawlog";
+  options.mask_dir = masks();
+  options.stereo = true;
+  test::write_log(options.log, {test::external_pair("PAIR", 0.0, base)});
+  add("a_left.png");
+  RawlogSource one(options);
+  const CameraFrame lone = one.load(*one.next());
+  EXPECT_FALSE(lone.mask.empty());
+  EXPECT_FALSE(lone.right.empty());
+  EXPECT_TRUE(lone.right_mask.empty());
+  add("a_right.png");
+  RawlogSource both(options);
+  const CameraFrame frame = both.load(*both.next());
+  ASSERT_EQ(frame.right_mask.width(), frame.right.width());
+  EXPECT_EQ(frame.right_mask.row(test::kHeight / 2)[5], 0);
+}
+
 TEST_F(Masks, GoWithTheirImagesThroughTheSource) {
   SourceOptions options;
   options.log = folder_.path() / "drive.rawlog";

@@ -52,19 +52,31 @@ inline PlanePose with_plane(const RelativePose& T) {
   return {T, Eigen::Vector3d::UnitY()};
 }
 
+template <auto kSolve, Gives kGives, class Take>
+void for_each_pose(AcSpan acs, Take&& take) {
+  for (const auto& solution : call<kSolve>(acs)) {
+    if constexpr (kGives == Gives::kPoses) {
+      take(with_plane(solution));
+    } else if constexpr (kGives == Gives::kHomographies) {
+      for (const PlanePose& pose : poses_from_homography(solution, acs)) take(pose);
+    } else {
+      for (const RelativePose& pose : pose_from_essential(solution, acs)) take(PlanePose{pose});
+    }
+  }
+}
+
 template <auto kSolve, Gives kGives>
 PoseSet poses(AcSpan acs) {
   PoseSet set;
-  for (const auto& solution : call<kSolve>(acs)) {
-    if constexpr (kGives == Gives::kPoses) {
-      set.push_back(with_plane(solution));
-    } else if constexpr (kGives == Gives::kHomographies) {
-      for (const PlanePose& pose : poses_from_homography(solution, acs)) set.push_back(pose);
-    } else {
-      for (const RelativePose& pose : pose_from_essential(solution, acs)) set.push_back({pose});
-    }
-  }
+  for_each_pose<kSolve, kGives>(acs, [&](const PlanePose& pose) { set.push_back(pose); });
   return set;
+}
+
+template <auto kSolve, Gives kGives>
+std::size_t put(AcSpan acs, PlanePose* out) {
+  std::size_t count = 0;
+  for_each_pose<kSolve, kGives>(acs, [&](const PlanePose& pose) { out[count++] = pose; });
+  return count;
 }
 
 inline void add_essential(const RelativePose& T, EssentialSet& set) {
@@ -101,9 +113,13 @@ template <auto kMinimal, auto kLeastSquares, Gives kGives = Gives::kPoses>
 constexpr SolverFunctions functions() {
   using Set = decltype(call<kMinimal>(AcSpan()));
   using Solution = std::decay_t<decltype(std::declval<Set>()[0])>;
-  SolverFunctions run{
-      static_cast<int>(Set::kCapacity), &count<kMinimal>, &essentials<kMinimal, kGives>,
-      &poses<kMinimal, kGives>,         nullptr,          nullptr};
+  SolverFunctions run{static_cast<int>(Set::kCapacity),
+                      &count<kMinimal>,
+                      &essentials<kMinimal, kGives>,
+                      &poses<kMinimal, kGives>,
+                      &put<kMinimal, kGives>,
+                      nullptr,
+                      nullptr};
   if constexpr (kLeastSquares != nullptr) run.least_squares = &poses<kLeastSquares, kGives>;
   constexpr bool kOfOne = std::is_invocable_v<decltype(kMinimal), const AffineCorrespondence&>;
   if constexpr (kOfOne && std::is_base_of_v<PlanarPose, Solution>) {

@@ -8,6 +8,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <filesystem>
 #include <fstream>
@@ -72,6 +73,27 @@ TEST(SolverList, FormsOfARowFindTheSameMotion) {
         nearest = std::min({nearest, (found - E).norm(), (found + E).norm()});
       }
       EXPECT_LT(nearest, 1e-4);
+    }
+  }
+}
+
+TEST(SolverList, PosesPutIntoRoomAreThoseOfTheSetAndNoMore) {
+  SceneGenerator scene(9);
+  for (const Solver& solver : solvers()) {
+    SCOPED_TRACE(solver.name);
+    const OwnScene own(solver, scene);
+    const PoseSet set = solver.run.poses(own.acs);
+    std::array<PlanePose, PoseSet::kCapacity> room;
+    for (PlanePose& pose : room) pose.n.setConstant(7.0);
+    ASSERT_EQ(solver.run.put(own.acs, room.data()), set.size());
+    for (std::size_t i = 0; i < room.size(); ++i) {
+      if (i >= set.size()) {
+        EXPECT_EQ(room[i].n, Eigen::Vector3d::Constant(7.0));
+        continue;
+      }
+      EXPECT_EQ(room[i].motion.R, set[i].motion.R);
+      EXPECT_EQ(room[i].motion.t, set[i].motion.t);
+      EXPECT_EQ(room[i].n, set[i].n);
     }
   }
 }

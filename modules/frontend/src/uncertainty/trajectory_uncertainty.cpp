@@ -36,7 +36,7 @@ Matrix6 beside_length(const StepResult& step, double length) {
 class Chain {
  public:
   Chain(double common_sigma, double camera_doubt)
-      : common_sigma_(common_sigma), turn_scale_(std::max(kTurnScale, camera_doubt)) {}
+      : common_sigma_(common_sigma), turn_scale_(shared_turn_sigma(camera_doubt)) {}
 
   void add(const StepResult& step, const Eigen::Isometry3d& before, const Eigen::Isometry3d& now) {
     const Eigen::Vector3d d = now.translation() - before.translation();
@@ -88,6 +88,10 @@ class Chain {
 };
 
 }  // namespace
+
+double shared_turn_sigma(double camera_doubt) {
+  return std::max(kTurnScale, camera_doubt);
+}
 
 std::optional<double> sigma_of_length(const StepResult& step) {
   if (!step.metric) return std::nullopt;

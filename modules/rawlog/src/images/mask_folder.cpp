@@ -59,7 +59,9 @@ std::vector<fs::path> pictures_in(const fs::path& folder) {
 
 }  // namespace
 
-MaskFolder::MaskFolder(const fs::path& folder) : folder_(folder) {
+MaskFolder::MaskFolder(const fs::path& folder) : MaskFolder(folder, true) {}
+
+MaskFolder::MaskFolder(const fs::path& folder, bool may_have_right) : folder_(folder) {
   for (const fs::path& file : pictures_in(folder)) {
     const auto [at, fresh] = masks_.emplace(key_of(without_mask(file.stem().string())), file);
     if (fresh) continue;
@@ -68,19 +70,39 @@ MaskFolder::MaskFolder(const fs::path& folder) : folder_(folder) {
                          " are masks of one image",
                      "keep one of them, and masks in a folder of their own");
   }
-  if (!masks_.empty()) return;
-  throw InputError(folder.string(), "holds no pictures",
-                   "name the folder of the masks with --mask-dir");
+  if (masks_.empty()) {
+    throw InputError(folder.string(), "holds no pictures",
+                     "name the folder of the masks with --mask-dir");
+  }
+  std::error_code ignored;
+  const fs::path right = folder / "right";
+  if (may_have_right && fs::is_directory(right, ignored)) {
+    right_ = std::shared_ptr<const MaskFolder>(new MaskFolder(right, false));
+  }
 }
 
-fs::path MaskFolder::mask_of(const std::string& name, std::size_t index) const {
-  const fs::path file(name);
+std::optional<fs::path> MaskFolder::find(const std::string& name, std::size_t index) const {
   const std::vector<std::string> keys =
       name.empty() ? std::vector<std::string>{std::to_string(index)}
-                   : std::vector<std::string>{name, key_of(file.stem().string())};
+                   : std::vector<std::string>{name, key_of(fs::path(name).stem().string())};
   for (const std::string& key : keys) {
     if (const auto at = masks_.find(key); at != masks_.end()) return at->second;
   }
+  return std::nullopt;
+}
+
+fs::path MaskFolder::mask_of_right(const std::string& name, const std::string& left,
+                                   std::size_t index) const {
+  if (right_) return right_->mask_of(name, index);
+  const auto stem = [](const std::string& file) { return key_of(fs::path(file).stem().string()); };
+  // Images in the log, and those of KITTI's layout, are called as the left ones.
+  if (name.empty() || stem(name) == stem(left)) return {};
+  return find(name, index).value_or(fs::path());
+}
+
+fs::path MaskFolder::mask_of(const std::string& name, std::size_t index) const {
+  if (const auto found = find(name, index)) return *found;
+  const fs::path file(name);
   const std::string wanted = (name.empty() ? std::to_string(index) : file.stem().string()) + ".png";
   throw InputError(folder_.string(),
                    "no mask for image " + (name.empty() ? std::to_string(index) : name),

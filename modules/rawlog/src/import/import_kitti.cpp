@@ -54,7 +54,7 @@ Sequence find_images(const fs::path& source) {
   }
   throw InputError(
       source.string(),
-      "no images (png, jpg, bmp, pgm, ppm) in image_0, image_l, image_2 or images in it",
+      "no images (png, jpg, bmp, pgm, ppm, tif, webp) in image_0, image_l, image_2 or images in it",
       "give the folder of one sequence, such as sequences/03");
 }
 

@@ -27,7 +27,8 @@ class Decompressor {
   [[nodiscard]] virtual std::string name() const = 0;
 };
 
-/// By the magic bytes of the first piece: "gzip", "zstd" or none.
+/// By the magic bytes of the first piece: "gzip", "zstd" or none; also of a file that was packed
+/// twice.
 [[nodiscard]] std::unique_ptr<Decompressor> make_decompressor(const std::uint8_t* head,
                                                               std::size_t size);
 

@@ -4,8 +4,12 @@
 #include <zstd.h>
 
 #include <algorithm>
+#include <cstddef>
 #include <limits>
 #include <stdexcept>
+#include <string>
+#include <utility>
+#include <vector>
 
 namespace oneac {
 namespace {
@@ -101,13 +105,78 @@ bool starts_with(const std::uint8_t* head, std::size_t size,
   return size >= magic.size() && std::equal(magic.begin(), magic.end(), head);
 }
 
-}  // namespace
-
-std::unique_ptr<Decompressor> make_decompressor(const std::uint8_t* head, std::size_t size) {
+std::unique_ptr<Decompressor> one_decompressor(const std::uint8_t* head, std::size_t size) {
   if (starts_with(head, size, {0x1f, 0x8b})) return std::make_unique<GzipDecompressor>();
   if (starts_with(head, size, {0x28, 0xb5, 0x2f, 0xfd}))
     return std::make_unique<ZstdDecompressor>();
   return nullptr;
+}
+
+/// MRPT packs its logs itself; somebody who packs a file for sending packs it once more.
+class TwiceDecompressor : public Decompressor {
+ public:
+  explicit TwiceDecompressor(std::unique_ptr<Decompressor> outer) : outer_(std::move(outer)) {}
+
+  Piece decompress(const std::uint8_t* in, std::size_t in_size, std::uint8_t* out,
+                   std::size_t out_size) override {
+    Piece piece;
+    const bool wants_more = begin_ == end_ || !looked_;
+    if (wants_more && outer_fault_.empty()) piece.consumed = unpack_outer(in, in_size);
+    if (!look() && piece.consumed > 0) return piece;
+    const std::uint8_t* from = middle_.data() + begin_;
+    if (inner_) {
+      const Piece unpacked = inner_->decompress(from, end_ - begin_, out, out_size);
+      begin_ += unpacked.consumed;
+      piece.produced = unpacked.produced;
+      piece.fault = unpacked.fault;
+    } else {
+      piece.produced = std::min(out_size, end_ - begin_);
+      std::copy_n(from, piece.produced, out);
+      begin_ += piece.produced;
+    }
+    // What came before the fault goes first.
+    if (begin_ == end_ && piece.fault.empty()) piece.fault = outer_fault_;
+    return piece;
+  }
+  [[nodiscard]] std::string fault_at_end() const override {
+    const std::string fault = outer_->fault_at_end();
+    return fault.empty() && inner_ ? inner_->fault_at_end() : fault;
+  }
+  [[nodiscard]] std::string name() const override { return outer_->name(); }
+
+ private:
+  static constexpr std::size_t kMiddle = std::size_t{1} << 18U, kMagic = 4;
+
+  /// @return bytes of the input that were used
+  std::size_t unpack_outer(const std::uint8_t* in, std::size_t in_size) {
+    if (begin_ == end_) begin_ = end_ = 0;
+    const Piece unpacked =
+        outer_->decompress(in, in_size, middle_.data() + end_, middle_.size() - end_);
+    end_ += unpacked.produced;
+    outer_fault_ = unpacked.fault;
+    at_rest_ = unpacked.consumed == 0 && unpacked.produced == 0;
+    return unpacked.consumed;
+  }
+  /// @return whether it is known what the first layer holds
+  bool look() {
+    if (looked_) return true;
+    looked_ = end_ - begin_ >= kMagic || at_rest_ || !outer_fault_.empty();
+    if (looked_) inner_ = one_decompressor(middle_.data() + begin_, end_ - begin_);
+    return looked_;
+  }
+
+  std::unique_ptr<Decompressor> outer_, inner_;
+  std::vector<std::uint8_t> middle_ = std::vector<std::uint8_t>(kMiddle);
+  std::size_t begin_ = 0, end_ = 0;  ///< of what of it waits
+  bool looked_ = false, at_rest_ = false;
+  std::string outer_fault_;
+};
+
+}  // namespace
+
+std::unique_ptr<Decompressor> make_decompressor(const std::uint8_t* head, std::size_t size) {
+  auto outer = one_decompressor(head, size);
+  return outer ? std::make_unique<TwiceDecompressor>(std::move(outer)) : nullptr;
 }
 
 }  // namespace oneac

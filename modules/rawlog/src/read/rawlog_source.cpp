@@ -28,7 +28,7 @@ constexpr double kReferenceTail = 2.0;  // [s] read past the last image: two epo
 struct Payload {
   StoredImage image;
   std::optional<StoredImage> right;
-  std::filesystem::path mask;  ///< empty: none
+  std::filesystem::path mask, right_mask;  ///< empty: none
   double baseline_m = 0.0;
   Eigen::Isometry3d T_vehicle_cam;
 };
@@ -38,6 +38,12 @@ struct Sight {
   LogView view;
   std::optional<LogView> right;
 };
+
+/// The name of an image's file; "" for one in the log.
+std::string file_of(const LogView& view) {
+  const bool in_file = view.image->kind == LogImage::Kind::external;
+  return in_file ? std::filesystem::path(view.image->file).filename().string() : "";
+}
 
 }  // namespace
 
@@ -71,8 +77,12 @@ class RawlogSource::Impl {
                                                      const RawlogRecord& record);
   void settle_size(const StoredImage& first, const std::string& ticket_name);
   void add_right(const LogView& right, std::size_t record, Payload& payload);
-  [[nodiscard]] GreyImage decoded(const StoredImage& image, const std::string& ticket_name) const;
-  void add_image(const Payload& payload, const std::string& ticket_name, CameraFrame& frame) const;
+  /// The image, and its mask where it has one.
+  struct Picture {
+    GreyImage image, mask;
+  };
+  [[nodiscard]] Picture decoded(const StoredImage& image, const std::filesystem::path& mask,
+                                const std::string& ticket_name) const;
   [[nodiscard]] std::string where(std::size_t record) const;
   void complete_report();
 
@@ -176,9 +186,8 @@ std::optional<FrameTicket> RawlogSource::Impl::ticket_of(const Sight& sight,
   poses_.check(view, where(record.number));
   FrameTicket ticket;
   ticket.index = report_.images_in_log - 1;
-  ticket.name = view.image->kind == LogImage::Kind::external
-                    ? std::filesystem::path(view.image->file).filename().string()
-                    : "record " + std::to_string(record.number);
+  const std::string file = file_of(view);
+  ticket.name = file.empty() ? "record " + std::to_string(record.number) : file;
   auto image = stored_image(view, images_);
   if (!image) {
     if (report_.images_missing++ == 0) report_.first_missing = ticket.name;
@@ -187,11 +196,11 @@ std::optional<FrameTicket> RawlogSource::Impl::ticket_of(const Sight& sight,
   if (view.image->kind == LogImage::Kind::external) names_.add(ticket.name);
   auto payload = std::make_shared<Payload>();
   payload->image = std::move(*image);
-  if (masks_) {
-    const bool in_file = view.image->kind == LogImage::Kind::external;
-    payload->mask = masks_->mask_of(in_file ? ticket.name : "", ticket.index);
-  }
+  if (masks_) payload->mask = masks_->mask_of(file, ticket.index);
   if (sight.right) add_right(*sight.right, record.number, *payload);
+  if (masks_ && payload->right) {
+    payload->right_mask = masks_->mask_of_right(file_of(*sight.right), file, ticket.index);
+  }
   if (payload->right) {
     ++report_.pairs_delivered;
   } else if (options_.stereo && report_.first_lone.empty()) {
@@ -212,27 +221,23 @@ void RawlogSource::Impl::settle_size(const StoredImage& first, const std::string
   const bool given = options_.camera_model || !options_.calibration.empty();
   if (!given && chosen_.calibration.ncols != 0) return;
   try {
-    static_cast<void>(decoded(first, ticket_name));
+    static_cast<void>(decoded(first, {}, ticket_name));
   } catch (const InputError&) {  // load() says it
   }
 }
 
-GreyImage RawlogSource::Impl::decoded(const StoredImage& image,
-                                      const std::string& ticket_name) const {
-  const std::string in_log = options_.log.string() + ": " + ticket_name;
-  return camera_.rectify(image.grey(in_log), image.name(in_log));
-}
-
 // The mask belongs to the image as it is stored, and is undistorted as it is.
-void RawlogSource::Impl::add_image(const Payload& payload, const std::string& ticket_name,
-                                   CameraFrame& frame) const {
+RawlogSource::Impl::Picture RawlogSource::Impl::decoded(const StoredImage& image,
+                                                        const std::filesystem::path& mask,
+                                                        const std::string& ticket_name) const {
   const std::string in_log = options_.log.string() + ": " + ticket_name;
-  GreyImage stored = payload.image.grey(in_log);
-  if (!payload.mask.empty()) {
-    frame.mask =
-        camera_.rectify(read_mask(payload.mask, stored.view(), ticket_name), payload.mask.string());
+  Picture picture;
+  GreyImage stored = image.grey(in_log);
+  if (!mask.empty()) {
+    picture.mask = camera_.rectify(read_mask(mask, stored.view(), ticket_name), mask.string());
   }
-  frame.image = camera_.rectify(std::move(stored), payload.image.name(in_log));
+  picture.image = camera_.rectify(std::move(stored), image.name(in_log));
+  return picture;
 }
 
 CameraFrame RawlogSource::Impl::load(const FrameTicket& ticket) const {
@@ -240,8 +245,14 @@ CameraFrame RawlogSource::Impl::load(const FrameTicket& ticket) const {
   CameraFrame frame;
   {
     const StageTimer timer(frame.decode_ms);
-    add_image(payload, ticket.name, frame);
-    if (payload.right) frame.right = decoded(*payload.right, ticket.name + " (right)");
+    Picture seen = decoded(payload.image, payload.mask, ticket.name);
+    frame.image = std::move(seen.image);
+    frame.mask = std::move(seen.mask);
+    if (payload.right) {
+      seen = decoded(*payload.right, payload.right_mask, ticket.name + " (right)");
+      frame.right = std::move(seen.image);
+      frame.right_mask = std::move(seen.mask);
+    }
   }
   frame.baseline_m = payload.baseline_m;
   frame.index = ticket.index;

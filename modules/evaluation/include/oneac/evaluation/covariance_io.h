@@ -53,5 +53,9 @@ struct PoseCovarianceRow {
 /// T_fixed T_world_body T_fixed⁻¹, as the vehicle's of its camera's.
 [[nodiscard]] PoseCovarianceRow carried_to(const Eigen::Isometry3d& T_fixed,
                                            const PoseCovarianceRow& row);
+/// The same where the two sit differently: T_world T_world_body T_body⁻¹.
+[[nodiscard]] PoseCovarianceRow carried_to(const Eigen::Isometry3d& T_world,
+                                           const Eigen::Isometry3d& T_body,
+                                           const PoseCovarianceRow& row);
 
 }  // namespace oneac

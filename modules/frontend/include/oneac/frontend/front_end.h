@@ -66,10 +66,14 @@ class FrontEnd : public mrpt::system::COutputLogger {
   /// IMU are remembered for scale and tilt. What is passed over is counted in fed() and logged, the
   /// first time for each reason. ObservationIntake says what is followed and what refused, in the
   /// words of `oneac run`; after a refusal feeding may go on.
+  /// @param masks  of this image and, with scale.source "stereo", of the right one: dark where
+  ///               pixels are not used, of the size that the observation has them in
   /// @throws InputError for an image of the camera that cannot be used: no calibration, another
   ///         lens model than plumb-bob, calibration or size that change, damaged pose, no time
-  ///         stamp, not decodable; std::invalid_argument for a null pointer
-  std::optional<FrameResult> feed(const std::shared_ptr<mrpt::obs::CObservation>& observation);
+  ///         stamp, not decodable; std::invalid_argument for a null pointer, and a mask of another
+  ///         size
+  std::optional<FrameResult> feed(const std::shared_ptr<mrpt::obs::CObservation>& observation,
+                                  const ImageMasks& masks = {});
   /// What became of the observations so far.
   [[nodiscard]] const IntakeCounts& fed() const { return intake_.counts(); }
   /// Specific force in the vehicle frame [m/s²]: gravity, for tilt.source "imu"; with the yaw rate

@@ -98,7 +98,9 @@ void describe(Visitor&& visit, TiltOptions& o) {
 
 template <class Visitor>
 void describe(Visitor&& visit, SelfCalibrationOptions& o) {
-  visit("refine", o.refine, "name", "off: the camera as given; focal: learned from bends",
+  visit("refine", o.refine, "name",
+        "off: the camera as given; focal: learned from bends and, where the log has them, the "
+        "turns of gyroscope and GPS course",
         Bound::one_of("off or focal"));
   visit("check", o.check, "bool", "bends that contradict the focal length take the metres away");
   visit("focal_sigma", o.focal_sigma, "-", "relative 1-sigma of the given focal length",

@@ -31,6 +31,9 @@ namespace oneac {
 [[nodiscard]] std::vector<Eigen::Matrix<double, 6, 6>> pose_covariances(
     const std::vector<FrameResult>& frames, double common_sigma, double camera_doubt = 0.0);
 
+/// Relative 1σ that all turns of a drive share, for the doubt of its camera.
+[[nodiscard]] double shared_turn_sigma(double camera_doubt);
+
 /// Of the positions alone [m²].
 [[nodiscard]] std::vector<Eigen::Matrix3d> position_covariances(
     const std::vector<FrameResult>& frames, double common_sigma, double camera_doubt = 0.0);

@@ -23,6 +23,7 @@ struct CameraFrame {
   PinholeCamera raw_camera;  ///< of the image as it is stored: with its distortion
   GreyImage right;           ///< of a rectified pair, when asked for and there: same `camera`, ...
   double baseline_m = 0.0;   ///< ... so far along the X axis [m]; 0: no pair
+  GreyImage right_mask;      ///< of the size of `right`, as `mask`; empty: all of it is used
   /// Camera (optical: X right, Y down, Z forward) in the vehicle frame (X forward,
   /// Y left, Z up) [m].
   Eigen::Isometry3d T_vehicle_cam = forward_looking_mount();

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "oneac/base/image.h"
 #include "oneac/geometry/camera_frame.h"
 #include "oneac/observations/camera_reader.h"
 #include "oneac/observations/pose_watch.h"
@@ -53,6 +54,13 @@ struct Intake {
   std::optional<PassedOver> passed_over;
 };
 
+/// What is not used of an image, dark (below 128); each of the size of the pixels as the
+/// observation has them, or empty: all is used.
+struct ImageMasks {
+  ImageView image;  ///< of the camera that is followed
+  ImageView right;  ///< of the right image of a pair
+};
+
 /// What to take in.
 struct IntakeOptions {
   std::string camera;  ///< as of CameraView::matches(); empty: that of the first image
@@ -71,9 +79,11 @@ class ObservationIntake {
  public:
   explicit ObservationIntake(IntakeOptions options);
 
+  /// @param masks  of an image of the camera; not looked at otherwise
   /// @throws InputError in the words of RawlogSource: what CameraReader refuses, a damaged pose, an
-  ///         image that cannot be decoded
-  [[nodiscard]] Intake take(const mrpt::obs::CObservation& observation);
+  ///         image that cannot be decoded; std::invalid_argument for a mask of another size
+  [[nodiscard]] Intake take(const mrpt::obs::CObservation& observation,
+                            const ImageMasks& masks = {});
   [[nodiscard]] const IntakeCounts& counts() const { return counts_; }
   /// As of CameraReader; "" before the first frame.
   [[nodiscard]] std::string scaling_note() const;
@@ -82,11 +92,16 @@ class ObservationIntake {
   [[nodiscard]] Intake take_inertial(const mrpt::obs::CObservation& observation);
   [[nodiscard]] Intake take_speed(const mrpt::obs::CObservation& observation);
   [[nodiscard]] Intake take_wheels(const mrpt::obs::CObservation& observation);
-  [[nodiscard]] Intake take_image(const mrpt::obs::CObservation& observation);
-  [[nodiscard]] Intake read(const CameraView& view, const CameraView* right,
-                            const mrpt::obs::CObservation& observation);
-  void add_pixels(const CameraView& view, const CameraView* right, const std::string& where,
-                  CameraFrame& frame) const;
+  /// The image of the camera, and of a pair that is wanted its right one.
+  struct Sight {
+    const CameraView* view = nullptr;
+    const CameraView* right = nullptr;  ///< null: none
+    ImageMasks masks;
+  };
+  [[nodiscard]] Intake take_image(const mrpt::obs::CObservation& observation,
+                                  const ImageMasks& masks);
+  [[nodiscard]] Intake read(const Sight& sight, const mrpt::obs::CObservation& observation);
+  void add_pixels(const Sight& sight, const std::string& where, CameraFrame& frame) const;
   [[nodiscard]] bool is_followed(const CameraView& view) const;
   [[nodiscard]] Intake pass(PassedOver reason);
 

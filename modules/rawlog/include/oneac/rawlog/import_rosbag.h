@@ -33,13 +33,12 @@ struct BagTopic {
 /// The topics of a bag, by their names. @throws InputError as import_rosbag()
 [[nodiscard]] std::vector<BagTopic> topics_of_bag(const std::filesystem::path& bag);
 
-/// Writes a drive out of a bag of ROS 1: Image (mono8, mono16, rgb8, bgr8, rgba8, bgra8, 8-bit
-/// Bayer patterns) as PNG files, CompressedImage as the JPEG or PNG files that they are, all in
-/// <log base>_Images. Times are those of the headers, or of the bag where they are 0, and a note
-/// says so. The calibration is CameraInfo's: K and D, or P where the topic's name says that its
-/// images are rectified ("image_rect").
-/// Where the bag is damaged, or a message is not what it says, the log holds what came before; then
-/// the error is thrown.
+/// Writes a drive out of a bag of ROS 1: Image (mono, rgb, bgr, rgba, bgra and Bayer patterns of 8
+/// or 16 bits, yuv422 in either order) as PNG files, CompressedImage as the JPEG or PNG files that
+/// they are, all in <log base>_Images. Times are those of the headers, or of the bag where they are
+/// 0, and a note says so. The calibration is CameraInfo's: K and D, or P where the topic's name
+/// says that its images are rectified ("image_rect"). Where the bag is damaged, or a message is not
+/// what it says, the log holds what came before; then the error is thrown.
 /// @throws InputError naming bag, topic and number of the message (from 1 on), what is wrong with
 /// it
 ///         and the cure; for a bag of ROS 2; where this oneac cannot read bags. OutputError when

@@ -27,22 +27,35 @@ struct Encoding {
   std::optional<int> conversion;
 };
 
-/// OpenCV names a Bayer pattern by its second row and column, ROS by its first.
+/// OpenCV names a Bayer pattern by its second row and column, ROS by its first. ROS's yuv422 is
+/// UYVY: its Y are the second bytes.
 const Encoding* encoding_of(const std::string& name) {
-  static const std::array<Encoding, 13> kEncodings{
+  static const std::array<Encoding, 25> kEncodings{
       {{"mono8", CV_8UC1, {}},
        {"8UC1", CV_8UC1, {}},
        {"mono16", CV_16UC1, {}},
        {"bgr8", CV_8UC3, {}},
        {"8UC3", CV_8UC3, {}},
+       {"bgr16", CV_16UC3, {}},
        {"rgb8", CV_8UC3, cv::COLOR_RGB2BGR},
+       {"rgb16", CV_16UC3, cv::COLOR_RGB2BGR},
        {"bgra8", CV_8UC4, cv::COLOR_BGRA2BGR},
        {"8UC4", CV_8UC4, cv::COLOR_BGRA2BGR},
+       {"bgra16", CV_16UC4, cv::COLOR_BGRA2BGR},
        {"rgba8", CV_8UC4, cv::COLOR_RGBA2BGR},
+       {"rgba16", CV_16UC4, cv::COLOR_RGBA2BGR},
        {"bayer_rggb8", CV_8UC1, cv::COLOR_BayerBG2BGR},
        {"bayer_bggr8", CV_8UC1, cv::COLOR_BayerRG2BGR},
        {"bayer_gbrg8", CV_8UC1, cv::COLOR_BayerGR2BGR},
-       {"bayer_grbg8", CV_8UC1, cv::COLOR_BayerGB2BGR}}};
+       {"bayer_grbg8", CV_8UC1, cv::COLOR_BayerGB2BGR},
+       {"bayer_rggb16", CV_16UC1, cv::COLOR_BayerBG2BGR},
+       {"bayer_bggr16", CV_16UC1, cv::COLOR_BayerRG2BGR},
+       {"bayer_gbrg16", CV_16UC1, cv::COLOR_BayerGR2BGR},
+       {"bayer_grbg16", CV_16UC1, cv::COLOR_BayerGB2BGR},
+       {"yuv422", CV_8UC2, cv::COLOR_YUV2BGR_UYVY},
+       {"uyvy", CV_8UC2, cv::COLOR_YUV2BGR_UYVY},
+       {"yuv422_yuy2", CV_8UC2, cv::COLOR_YUV2BGR_YUY2},
+       {"yuyv", CV_8UC2, cv::COLOR_YUV2BGR_YUY2}}};
   for (const Encoding& encoding : kEncodings) {
     if (name == encoding.name) return &encoding;
   }
@@ -52,7 +65,7 @@ const Encoding* encoding_of(const std::string& name) {
 const Encoding& known_encoding(const std::string& name) {
   if (const Encoding* encoding = encoding_of(name)) return *encoding;
   throw BadMessage{"its pixels are '" + shortened(printable(name), 40) +
-                   "', not mono8, mono16, bgr8, rgb8, bgra8, rgba8 or 8-bit bayer"};
+                   "', not mono, bgr, rgb, bgra, rgba or bayer of 8 or 16 bits, nor yuv422"};
 }
 
 void require_consistent(const RosImage& image, std::size_t bytes_of_pixel) {
@@ -71,24 +84,34 @@ void require_consistent(const RosImage& image, std::size_t bytes_of_pixel) {
                    std::to_string(bytes) + " bytes, it holds " + std::to_string(image.pixels.size)};
 }
 
+cv::Mat with_swapped_bytes(const cv::Mat& pixels) {
+  const cv::Mat swapped = pixels.clone();
+  swapped.reshape(1).forEach<std::uint16_t>([](std::uint16_t& value, const int*) {
+    value = static_cast<std::uint16_t>(value << 8U | value >> 8U);
+  });
+  return swapped;
+}
+
+/// Two pixels of YUV 4:2:2 share their colour.
+void require_pairs(const RosImage& image, int type) {
+  if (type != CV_8UC2 || image.width % 2 == 0) return;
+  throw BadMessage{"its rows of " + image.encoding + " have " + std::to_string(image.width) +
+                   " pixels, an odd number"};
+}
+
 /// The message's own pixels, in the machine's order of bytes, as OpenCV writes them.
 cv::Mat pixels_of(const RosImage& image) {
   const Encoding& encoding = known_encoding(image.encoding);
   require_consistent(image, CV_ELEM_SIZE(encoding.type));
+  require_pairs(image, encoding.type);
   cv::Mat pixels(static_cast<int>(image.height), static_cast<int>(image.width), encoding.type,
                  const_cast<std::uint8_t*>(image.pixels.data), image.step);
-  if (encoding.conversion) {
-    cv::Mat converted;
-    cv::cvtColor(pixels, converted, *encoding.conversion);
-    return converted;
-  }
-  if (CV_MAT_DEPTH(encoding.type) == CV_16U && image.is_bigendian) {
-    pixels = pixels.clone();
-    pixels.forEach<std::uint16_t>([](std::uint16_t& value, const int*) {
-      value = static_cast<std::uint16_t>(value << 8U | value >> 8U);
-    });
-  }
-  return pixels;
+  const bool is_swapped = CV_MAT_DEPTH(encoding.type) == CV_16U && image.is_bigendian;
+  if (is_swapped) pixels = with_swapped_bytes(pixels);
+  if (!encoding.conversion) return pixels;
+  cv::Mat converted;
+  cv::cvtColor(pixels, converted, *encoding.conversion);
+  return converted;
 }
 
 const char* ending_of(const RosCompressedImage& image) {

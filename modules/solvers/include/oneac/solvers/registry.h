@@ -39,6 +39,9 @@ struct SolverFunctions {
   /// Poses in the row's unit. Of matrices those motions that have most of the sample before both
   /// cameras. `n` is the plane's normal, and means nothing where the solver knows no plane.
   PoseSet (*poses)(AcSpan sample);
+  /// `poses` into room for PoseSet::kCapacity of them: how many. For a hundred thousand samples in
+  /// a row, whose sets are mostly room that is made ready in vain.
+  std::size_t (*put)(AcSpan sample, PlanePose* out);
   PoseSet (*least_squares)(AcSpan acs);  ///< `poses` of any number ≥ sample; null: no such form
   PlanarPoseSet (*planar)(const AffineCorrespondence& ac);  ///< null: no planar motion from one
 };
