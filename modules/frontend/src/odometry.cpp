@@ -191,6 +191,7 @@ FrameResult Odometry::integrate(const FrameStamp& now, TwoView found, const Road
   if (seen.pose.t.norm() > 0.0) heading_ = seen.pose.t.normalized();
   if (scale_.map_is_refuted()) map_.forget();
   const StepResult step = step_result(before, now, seen, length, map_.segment());
+  if (in_time.direct && length.metric) attitude_.see_road(in_time.direct->roll_right);
   attitude_.follow(step);
   FrameResult result = moved(now, seen, step);
   if (begun) result.rescaled *= begun->factor;

@@ -48,6 +48,20 @@ TEST(Attitude, TakesGravityThatWasFeltBeforeTheFirstFrame) {
   EXPECT_NEAR(std::abs(attitude.mounting().tilt.pitch_up), 2.0 * kDegree, 0.3 * kDegree);
 }
 
+TEST(Attitude, DoubtsTheRollOfALogThatSaysNothingOfItsMount) {
+  Eigen::Matrix3d level;
+  level << 0, 0, 1, -1, 0, 0, 0, -1, 0;
+  const auto roll_sigma = [](const TiltOptions& options, const Eigen::Matrix3d& mount) {
+    Attitude attitude(options);
+    attitude.start(mount);
+    return attitude.now().roll_sigma;
+  };
+  const Eigen::Matrix3d pitched = level * levelling_rotation({8.0 * kDegree, 0.0});
+  EXPECT_NEAR(roll_sigma({}, level), 2.0 * kDegree, 1e-9);
+  EXPECT_NEAR(roll_sigma({}, pitched), 1.0 * kDegree, 1e-9);
+  EXPECT_NEAR(roll_sigma(given(0.0), level), 1.0 * kDegree, 1e-9) << "parameters were written";
+}
+
 TEST(Attitude, IsLevelledByTheFirstWayBeforeItsLengthIsAsked) {
   Attitude attitude(given(0.0));
   attitude.start(Eigen::Matrix3d::Identity());

@@ -162,6 +162,35 @@ TEST(TiltEstimator, KeepsTheGivenRollOnAStraightRoad) {
   EXPECT_GT(estimator.belief().roll_sigma, 0.9 * kDegree);
 }
 
+TEST(TiltEstimator, LearnsRollFromThePlaneOfTheRoad) {
+  const double roll = 4.0 * kDegree;
+  TiltEstimator estimator({}, {}, false);
+  SceneGenerator scene(66);
+  EXPECT_NEAR(estimator.belief().roll_sigma, 2.0 * kDegree, 1e-9);
+  for (int i = 0; i < 100; ++i) {
+    estimator.see_road({roll + scene.normal(0.5 * kDegree), 0.5 * kDegree});
+    estimator.add_step(step_of(0.0, 0.5));
+    const double off = std::abs(estimator.tilt().roll_right - roll);
+    EXPECT_LT(off, 2.0 * estimator.belief().roll_sigma) << "after " << i << " roads";
+  }
+  EXPECT_LT(estimator.belief().roll_sigma, 1.2 * kDegree);
+  EXPECT_GT(estimator.belief().roll_sigma, 1.0 * kDegree) << "that road may itself be inclined";
+}
+
+TEST(TiltEstimator, BelievesARollThatSomebodyStatedMoreThanTheRoad) {
+  TiltEstimator estimator({}, {});
+  for (int i = 0; i < 100; ++i) estimator.see_road({2.0 * kDegree, 0.3 * kDegree});
+  EXPECT_LT(estimator.tilt().roll_right, 1.0 * kDegree);
+}
+
+TEST(TiltEstimator, IsNotTurnedByOneRoadThatLiesAsKerbsDo) {
+  TiltEstimator estimator({}, {}, false);
+  for (int i = 0; i < 50; ++i) {
+    estimator.see_road({(i % 5 == 0 ? 15.0 : 0.5) * kDegree, 0.5 * kDegree});
+  }
+  EXPECT_LT(std::abs(estimator.tilt().roll_right), 1.0 * kDegree);
+}
+
 TEST(TiltFromGravity, InvertsTheLevellingRotation) {
   const Tilt truth{8.2 * kDegree, -1.5 * kDegree};
   Eigen::Matrix3d R_vehicle_level;

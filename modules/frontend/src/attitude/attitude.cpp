@@ -5,6 +5,8 @@
 
 #include "oneac/geometry/angles.h"
 
+#include <cmath>
+
 namespace oneac {
 namespace {
 
@@ -24,13 +26,20 @@ Attitude::Source Attitude::source_of(const std::string& name) {
 
 void Attitude::start(const Eigen::Matrix3d& R_vehicle_cam) {
   R_vehicle_cam_ = R_vehicle_cam;
-  mounting_.emplace(given(), options_);
+  mounting_.emplace(given(), options_, is_told());
   road_.emplace(mounting_->belief());
 }
 
 void Attitude::add_inertial(const InertialReading& reading) {
   gravity_.add(reading);
   if (mounting_ && source_ == Source::kImu) mounting_->set_given(given());
+}
+
+bool Attitude::is_told() const {
+  if (source_ != Source::kLog) return true;
+  constexpr double kExactly = 1e-6;  // [rad]
+  const Tilt log = tilt_from_mounting(R_vehicle_cam_);
+  return std::abs(log.pitch_up) > kExactly || std::abs(log.roll_right) > kExactly;
 }
 
 Tilt Attitude::given() const {
@@ -57,6 +66,10 @@ void Attitude::see(const TwoView& seen) {
   TiltEstimator first = *mounting_;  // the step itself comes with follow()
   first.add_step(seen.pose);
   road_->begin(*travel, first.belief());
+}
+
+void Attitude::see_road(const AngleBelief& roll_right) {
+  if (mounting_) mounting_->see_road(roll_right);
 }
 
 void Attitude::follow(const StepResult& step) {

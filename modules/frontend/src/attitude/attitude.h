@@ -28,6 +28,8 @@ class Attitude {
   /// The first step that moves shows how the camera leans before its length is asked of the road: a
   /// pitch that nobody told is often degrees off.
   void see(const TwoView& seen);
+  /// The plane of a road in view shows the camera's roll to the right against it [rad].
+  void see_road(const AngleBelief& roll_right);
   /// Learns from a step, which ends at the newest frame from then on.
   void follow(const StepResult& step);
 
@@ -47,6 +49,8 @@ class Attitude {
 
   [[nodiscard]] static Source source_of(const std::string& name);
   [[nodiscard]] Tilt given() const;
+  /// A log whose camera is exactly level says nothing of its mount.
+  [[nodiscard]] bool is_told() const;
   [[nodiscard]] Levelling levelling(double pitch_up) const;
 
   TiltOptions options_;
