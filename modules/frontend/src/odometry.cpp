@@ -222,7 +222,7 @@ StepLength Odometry::length_of(const StepInTime& step, const TwoView& seen,
   setup_.follow(seen, attitude_.now().R_level_cam);
   const StepLength length = setup_.checked_after(scale_.length_of(step, told));
   if (seen.status == StepStatus::kOk && length.length > kTellingWay) {
-    course_.follow(seen.pose.t.normalized(), seen.kept_on_course);
+    course_.follow(seen.pose.t.normalized(), seen.doubts_course);
   }
   return length;
 }
