@@ -73,6 +73,14 @@ TEST(TiltEstimator, IgnoresManoeuvresStandsAndAbsurdDirections) {
   EXPECT_EQ(estimator.tilt().pitch_up, 0.0);
 }
 
+TEST(TiltEstimator, LearnsNothingFromDirectionsThatImagesHardlyKnow) {
+  TiltEstimator estimator({6.0 * kDegree, 0.0}, {});
+  for (int i = 0; i < 100; ++i) estimator.add_step(step_of(0.0, 0.5), 5.0 * kDegree);
+  EXPECT_DOUBLE_EQ(estimator.tilt().pitch_up, 6.0 * kDegree);
+  for (int i = 0; i < 100; ++i) estimator.add_step(step_of(0.0, 0.5), 0.2 * kDegree);
+  EXPECT_NEAR(estimator.tilt().pitch_up, 0.0, 0.5 * kDegree);
+}
+
 TEST(TiltEstimator, StaysPutWhenTold) {
   TiltOptions fixed;
   fixed.refine = false;

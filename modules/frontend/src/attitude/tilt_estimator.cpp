@@ -28,6 +28,8 @@ constexpr double kUnknownSigma = 10.0 * kDegree;
 // [rad] least turn about the lateral axis from one image to the next, 1σ: the body's on its
 // springs.
 constexpr double kLeastPitching = 0.1 * kDegree;
+// [rad] 1σ of a direction that tells less than what springs do to a body.
+constexpr double kVague = 1.0 * kDegree;
 // [steps] turns that are remembered, 100 s at 10 Hz: bends are rare, and the roll of the camera on
 // the level car changes when somebody gets in.
 constexpr std::size_t kTurns = 1000;
@@ -76,13 +78,13 @@ void TiltEstimator::see_road(const AngleBelief& roll_right) {
   update();
 }
 
-void TiltEstimator::add_step(const RelativePose& T_2_1) {
+void TiltEstimator::add_step(const RelativePose& T_2_1, double elevation_sigma) {
   if (!options_.refine) return;
   const auto limit = static_cast<std::size_t>(options_.window_steps);
   const Eigen::AngleAxisd turn(T_2_1.R);
   turns_.push_back(turn.angle() * turn.axis());
   if (turns_.size() > kTurns) turns_.pop_front();
-  if (T_2_1.t.norm() > 0.0) {
+  if (T_2_1.t.norm() > 0.0 && elevation_sigma < kVague) {
     // Points move against the camera: it travels along −t. Backing says the same as driving.
     const Eigen::Vector3d along = -T_2_1.t.normalized();
     const Eigen::Vector3d forward = along.z() > 0.0 ? along : Eigen::Vector3d(-along);

@@ -17,9 +17,9 @@ namespace oneac {
 /// is worth some steps of driving, and less the more the drive contradicts it. Roll: a vehicle
 /// turns about its upright, so over a bend the rotation of a levelled camera has no part about its
 /// axis; least squares of the roll's share against the yaw's, held by the given roll, over a longer
-/// past, since bends are rare. What the springs pitch is its noise, taken from the drive. The road's
-/// own plane shows the roll, too, on straight ways as well, as far as it is not itself inclined.
-/// With source "drive" there is nothing given: the first steps set the pitch.
+/// past, since bends are rare. What the springs pitch is its noise, taken from the drive. The
+/// road's own plane shows the roll, too, on straight ways as well, as far as it is not itself
+/// inclined. With source "drive" there is nothing given: the first steps set the pitch.
 class TiltEstimator {
  public:
   /// @param given  [rad] to start from; with source "drive" only a place to look near
@@ -28,9 +28,11 @@ class TiltEstimator {
 
   /// Replaces what is given, e.g. by a longer mean of the accelerometer.
   void set_given(const Tilt& given, bool told = true);
-  /// Learns from a motion of the (tilted) camera. Steps that are not mainly forward say
-  /// nothing about pitch.
-  void add_step(const RelativePose& T_2_1);
+  /// Learns from a motion of the (tilted) camera. Steps that are not mainly forward say nothing
+  /// about pitch, nor do those whose direction the images hardly know: before far scenery it
+  /// follows what little else moves, all the same way.
+  /// @param elevation_sigma  [rad] 1σ of the direction's elevation by the images; 0: not known
+  void add_step(const RelativePose& T_2_1, double elevation_sigma = 0.0);
   /// Learns from the plane of the road in view: roll to the right of the camera against it [rad].
   void see_road(const AngleBelief& roll_right);
 
