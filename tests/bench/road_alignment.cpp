@@ -230,7 +230,7 @@ RoadStep step_of(const Row& pair, const Row& tilt, double height, const Settings
       levelling_rotation({pitch * kDegree, number(tilt, "roll_right_deg") * kDegree});
   step.pitch_sigma = kDegree * std::clamp(number(tilt, "suspension_sigma_deg"),
                                           s.value("--least-pitch-sigma", 0.1), 1.0);
-  step.roll_sigma = kDegree * std::clamp(number(tilt, "roll_sigma_deg"), 0.3, 1.5);
+  step.roll_sigma = kDegree * s.value("--roll-sigma", std::clamp(number(tilt, "roll_sigma_deg"), 0.3, 1.5));
   step.max_length = s.value("--max-length", 3.0) / height;
   return step;
 }
@@ -307,10 +307,10 @@ void run(const Settings& s) {
     if (s.value("--verbose", 0) > 0) {
       std::printf(
           "%4zu %4zu %-15s %.4f +- %.4f  truth %.4f  rho %.2f blocks %2d textured %2d rival %.2f "
-          "at %.3f gain %.3f\n",
+          "at %.3f gain %.3f roll %.2f +- %.2f deg\n",
           i, j, to_string(result.status), metres, height * result.sigma, expected.value_or(0.0),
           result.correlation, result.blocks, result.textured, result.rival,
-          height * result.rival_length, result.gain);
+          height * result.rival_length, result.gain, result.roll / kDegree, result.roll_sigma / kDegree);
     }
     if (!s.text("--draw").empty() && i % 40 == 0)
       draw(s.text("--draw") + std::to_string(i) + ".png", first, second, camera, result);

@@ -107,6 +107,21 @@ TEST(RoadAlignment, RecoversTheLengthOfAStepInCameraHeights) {
   }
 }
 
+TEST(RoadAlignment, TellsTheRollOfACameraAgainstTheRoad) {
+  for (const double roll : {-0.07, 0.0, 0.05}) {
+    Drive drive{asphalt(3)};
+    drive.tilt = {0.02, roll};
+    RoadStep step = drive.step();
+    step.R_level_cam = levelling_rotation({0.02, 0.0});
+    step.roll_sigma = 0.1;
+    const RoadAlignment result = drive.align(step);
+    EXPECT_EQ(result.status, RoadStatus::kMeasured) << roll << " " << to_string(result.status);
+    EXPECT_NEAR(result.roll, roll, 3.0 * result.roll_sigma);
+    EXPECT_LT(result.roll_sigma, 0.012);
+    EXPECT_NEAR(result.length, drive.length, 3.0 * result.sigma) << roll;
+  }
+}
+
 /// A car that turns off does not drive on what lies ahead of it: a kerb may stand between.
 TEST(RoadAlignment, IsLessSureInABendOfWhatTheCarDoesNotDriveOn) {
   const auto in_bend = [](double yaw) {

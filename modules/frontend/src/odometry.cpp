@@ -191,6 +191,7 @@ FrameResult Odometry::integrate(const FrameStamp& now, TwoView found, const Road
   if (seen.pose.t.norm() > 0.0) heading_ = seen.pose.t.normalized();
   if (scale_.map_is_refuted()) map_.forget();
   const StepResult step = step_result(before, now, seen, length, map_.segment());
+  if (in_time.direct && length.metric) attitude_.see_road(in_time.direct->roll_right);
   attitude_.follow(step);
   FrameResult result = moved(now, seen, step);
   if (begun) result.rescaled *= begun->factor;
@@ -221,7 +222,7 @@ StepLength Odometry::length_of(const StepInTime& step, const TwoView& seen,
   setup_.follow(seen, attitude_.now().R_level_cam);
   const StepLength length = setup_.checked_after(scale_.length_of(step, told));
   if (seen.status == StepStatus::kOk && length.length > kTellingWay) {
-    course_.follow(seen.pose.t.normalized(), seen.kept_on_course);
+    course_.follow(seen.pose.t.normalized(), seen.doubts_course);
   }
   return length;
 }

@@ -29,6 +29,13 @@ StepResult ahead(double pitch_up) {
   return step;
 }
 
+/// Of a camera that looks ahead, as a log has it that says nothing of its mount.
+Eigen::Matrix3d level_mount() {
+  Eigen::Matrix3d level;
+  level << 0, 0, 1, -1, 0, 0, 0, -1, 0;
+  return level;
+}
+
 TEST(Attitude, IsLevelBeforeTheFirstFrame) {
   const Attitude attitude(given(8.0));
   EXPECT_EQ(attitude.mounting().tilt.pitch_up, 0.0);
@@ -42,15 +49,26 @@ TEST(Attitude, TakesGravityThatWasFeltBeforeTheFirstFrame) {
   Attitude attitude(options);
   const Eigen::Vector3d leaning(9.81 * std::sin(2.0 * kDegree), 0.0, 9.81);
   for (int i = 0; i <= 1000; ++i) attitude.add_inertial({0.1 * i, leaning, std::nullopt});
-  Eigen::Matrix3d level_mount;
-  level_mount << 0, 0, 1, -1, 0, 0, 0, -1, 0;
-  attitude.start(level_mount);
+  attitude.start(level_mount());
   EXPECT_NEAR(std::abs(attitude.mounting().tilt.pitch_up), 2.0 * kDegree, 0.3 * kDegree);
 }
 
+TEST(Attitude, DoubtsTheRollOfALogThatSaysNothingOfItsMount) {
+  const Eigen::Matrix3d level = level_mount();
+  const auto roll_sigma = [](const TiltOptions& options, const Eigen::Matrix3d& mount) {
+    Attitude attitude(options);
+    attitude.start(mount);
+    return attitude.now().roll_sigma;
+  };
+  const Eigen::Matrix3d pitched = level * levelling_rotation({8.0 * kDegree, 0.0});
+  EXPECT_NEAR(roll_sigma({}, level), 2.0 * kDegree, 1e-9);
+  EXPECT_NEAR(roll_sigma({}, pitched), 1.0 * kDegree, 1e-9);
+  EXPECT_NEAR(roll_sigma(given(0.0), level), 1.0 * kDegree, 1e-9) << "parameters were written";
+}
+
 TEST(Attitude, IsLevelledByTheFirstWayBeforeItsLengthIsAsked) {
-  Attitude attitude(given(0.0));
-  attitude.start(Eigen::Matrix3d::Identity());
+  Attitude attitude({});
+  attitude.start(level_mount());
   TwoView seen;
   seen.status = StepStatus::kOk;
   seen.pose = ahead(7.0 * kDegree).pose;
@@ -58,6 +76,31 @@ TEST(Attitude, IsLevelledByTheFirstWayBeforeItsLengthIsAsked) {
   const Eigen::Vector3d down = attitude.now().R_level_cam.row(1);
   EXPECT_NEAR(tilt_from_down(down).pitch_up, 7.0 * kDegree, 0.5 * kDegree);
   EXPECT_LT(attitude.now().pitch_sigma, 0.6 * kDegree);
+}
+
+TEST(Attitude, DoesNotGiveUpAMountThatWasStatedForOneWay) {
+  Attitude attitude(given(7.8));
+  attitude.start(level_mount());
+  TwoView seen;
+  seen.status = StepStatus::kOk;
+  seen.pose = ahead(2.0 * kDegree).pose;
+  attitude.see(seen);
+  const Eigen::Vector3d down = attitude.now().R_level_cam.row(1);
+  const double off = std::abs(tilt_from_down(down).pitch_up - 7.8 * kDegree);
+  EXPECT_LT(off, 2.0 * attitude.now().pitch_sigma) << "if the mount is right";
+  EXPECT_GT(attitude.now().pitch_sigma, 1.0 * kDegree);
+}
+
+TEST(Attitude, CountsTheFirstWayOnce) {
+  Attitude attitude({});
+  attitude.start(level_mount());
+  TwoView seen;
+  seen.status = StepStatus::kOk;
+  seen.pose = ahead(7.0 * kDegree).pose;
+  attitude.see(seen);
+  const double before = attitude.now().pitch_sigma;
+  attitude.follow(ahead(7.0 * kDegree));
+  EXPECT_GE(attitude.now().pitch_sigma, before);
 }
 
 TEST(Attitude, IsNotLevelledByARestOrByALaterWay) {
@@ -88,6 +131,15 @@ TEST(Attitude, LearnsTheMountingAndLeavesTheSpringsTheRest) {
   attitude.follow(nod);
   EXPECT_NEAR(std::abs(attitude.suspension().angle), 1.0 * kDegree, 0.3 * kDegree);
   EXPECT_NEAR(attitude.mounting().tilt.pitch_up, 4.0 * kDegree, 0.15 * kDegree);
+}
+
+TEST(Attitude, KeepsItsMountThroughDirectionsThatImagesHardlyKnow) {
+  Attitude attitude(given(6.0));
+  attitude.start(level_mount());
+  StepResult vague = ahead(0.0);
+  vague.covariance.bottomRightCorner<3, 3>().diagonal().setConstant(std::pow(5.0 * kDegree, 2));
+  for (int i = 0; i < 100; ++i) attitude.follow(vague);
+  EXPECT_NEAR(attitude.mounting().tilt.pitch_up, 6.0 * kDegree, 0.1 * kDegree);
 }
 
 TEST(Attitude, LevelsAnEarlierViewByTheTurnSince) {

@@ -124,6 +124,18 @@ TEST(BasinChoice, NoNumberOfPointsMakesACarGoSideways) {
   const TwoView seen = choose(found(crossed(), {1.0, 0.0, 0.0}), {kAhead.t, 0.05, true});
   EXPECT_LT(direction_error(seen.pose.t, kAhead.t), 10.0 * kDegree);
   EXPECT_TRUE(seen.kept_on_course);
+  EXPECT_TRUE(seen.doubts_course);
+}
+
+TEST(BasinChoice, AFewPointsInTheDarkDoNotDoubtTheCourse) {
+  TrackedPair few = crossed();
+  SceneGenerator random(31);
+  few.correspondences.resize(16);
+  for (Correspondence& ac : few.correspondences) {
+    ac.x2 += Eigen::Vector2d(random.normal(0.05), random.normal(0.05));
+  }
+  const TwoView seen = choose(found(few, {1.0, 0.0, 0.0}), {kAhead.t, 0.05, true});
+  EXPECT_FALSE(seen.doubts_course);
 }
 
 TEST(BasinChoice, AMountDoesNotForbidASidewaysCamera) {

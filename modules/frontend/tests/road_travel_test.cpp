@@ -68,6 +68,26 @@ TEST(RoadTravel, TellsTheLengthOfAStepAhead) {
   EXPECT_TRUE(travel->in_metres);
 }
 
+TEST(RoadTravel, SaysHowTheCameraLeansAgainstTheRoad) {
+  const auto rolls_seen = [](double believed_deg) {
+    const GreyImage first = view_from(Eigen::Vector3d::Zero()), second = view_from(0.9 * kAhead);
+    const RoadPair road{RoadImage(first.view()), RoadImage(second.view()), camera(), {}};
+    TwoView step;
+    step.status = StepStatus::kOk;
+    step.focal_px = camera().focal_px();
+    step.pose.t = -kAhead;
+    step.covariance.diagonal().setConstant(1e-6);
+    const Levelling level{levelling_rotation({0.0, believed_deg * kDegree}), 0.0, 2.0 * kDegree};
+    return road_travel(road, step, {level, -kAhead, {}, 0.1, kHeight}).value().roll_right;
+  };
+  for (const double believed_deg : {-2.0, 0.0, 2.0}) {
+    const AngleBelief seen = rolls_seen(believed_deg);
+    EXPECT_GT(seen.sigma, 0.0);
+    EXPECT_NEAR(seen.angle, 0.0, std::max(3.0 * seen.sigma, 0.3 * kDegree)) << believed_deg;
+    EXPECT_LT(seen.sigma, 1.0 * kDegree);
+  }
+}
+
 TEST(RoadTravel, TellsNoLengthOfACameraThatLooksAside) {
   EXPECT_FALSE(told(0.9 * kAside, kAside).has_value()) << "beyond a lane it sees no road";
 }

@@ -275,6 +275,20 @@ TEST(SuspensionTilt, LearnsLessFromADirectionThatImagesHardlyKnow) {
   EXPECT_LT(hardly, 0.2 * known);
 }
 
+TEST(SuspensionTilt, LearnsNoMoreFromMoreImagesOfWhatLeadsThemAstray) {
+  const auto sigma_at = [](double rate) {
+    SuspensionTilt filter(mounted(0.0, 1.0 * kDegree));
+    TiltStep step;
+    step.seconds = 1.0 / rate;
+    step.length = 8.0 / rate;
+    step.travel = {Eigen::Vector3d::UnitZ(), 0.3 * kDegree,
+                   Eigen::Matrix3d::Identity() * std::pow(2.0 * kDegree, 2)};
+    for (int i = 0; i < rate; ++i) filter.add_step(step, mounted(0.0, 1.0 * kDegree));
+    return sigma_of(filter);
+  };
+  EXPECT_NEAR(sigma_at(60.0), sigma_at(5.0), 0.1 * sigma_at(5.0));
+}
+
 TEST(SuspensionTilt, IsLessSureAfterADirectionThatContradictsIt) {
   EXPECT_GT(after_a_rise(2.5 * kDegree, 0.0).sigma, 1.5 * after_a_rise(0.1 * kDegree, 0.0).sigma);
 }

@@ -73,6 +73,14 @@ TEST(TiltEstimator, IgnoresManoeuvresStandsAndAbsurdDirections) {
   EXPECT_EQ(estimator.tilt().pitch_up, 0.0);
 }
 
+TEST(TiltEstimator, LearnsNothingFromDirectionsThatImagesHardlyKnow) {
+  TiltEstimator estimator({6.0 * kDegree, 0.0}, {});
+  for (int i = 0; i < 100; ++i) estimator.add_step(step_of(0.0, 0.5), 5.0 * kDegree);
+  EXPECT_DOUBLE_EQ(estimator.tilt().pitch_up, 6.0 * kDegree);
+  for (int i = 0; i < 100; ++i) estimator.add_step(step_of(0.0, 0.5), 0.2 * kDegree);
+  EXPECT_NEAR(estimator.tilt().pitch_up, 0.0, 0.5 * kDegree);
+}
+
 TEST(TiltEstimator, StaysPutWhenTold) {
   TiltOptions fixed;
   fixed.refine = false;
@@ -160,6 +168,35 @@ TEST(TiltEstimator, KeepsTheGivenRollOnAStraightRoad) {
   for (int i = 0; i < 100; ++i) estimator.add_step(step_of(0.0, 0.5));
   EXPECT_NEAR(estimator.tilt().roll_right, 1.0 * kDegree, 0.05 * kDegree);
   EXPECT_GT(estimator.belief().roll_sigma, 0.9 * kDegree);
+}
+
+TEST(TiltEstimator, LearnsRollFromThePlaneOfTheRoad) {
+  const double roll = 4.0 * kDegree;
+  TiltEstimator estimator({}, {}, false);
+  SceneGenerator scene(66);
+  EXPECT_NEAR(estimator.belief().roll_sigma, 2.0 * kDegree, 1e-9);
+  for (int i = 0; i < 100; ++i) {
+    estimator.see_road({roll + scene.normal(0.5 * kDegree), 0.5 * kDegree});
+    estimator.add_step(step_of(0.0, 0.5));
+    const double off = std::abs(estimator.tilt().roll_right - roll);
+    EXPECT_LT(off, 2.0 * estimator.belief().roll_sigma) << "after " << i << " roads";
+  }
+  EXPECT_LT(estimator.belief().roll_sigma, 1.2 * kDegree);
+  EXPECT_GT(estimator.belief().roll_sigma, 1.0 * kDegree) << "that road may itself be inclined";
+}
+
+TEST(TiltEstimator, BelievesARollThatSomebodyStatedMoreThanTheRoad) {
+  TiltEstimator estimator({}, {});
+  for (int i = 0; i < 100; ++i) estimator.see_road({2.0 * kDegree, 0.3 * kDegree});
+  EXPECT_LT(estimator.tilt().roll_right, 1.0 * kDegree);
+}
+
+TEST(TiltEstimator, IsNotTurnedByOneRoadThatLiesAsKerbsDo) {
+  TiltEstimator estimator({}, {}, false);
+  for (int i = 0; i < 50; ++i) {
+    estimator.see_road({(i % 5 == 0 ? 15.0 : 0.5) * kDegree, 0.5 * kDegree});
+  }
+  EXPECT_LT(std::abs(estimator.tilt().roll_right), 1.0 * kDegree);
 }
 
 TEST(TiltFromGravity, InvertsTheLevellingRotation) {

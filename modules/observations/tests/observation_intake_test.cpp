@@ -81,6 +81,7 @@ TEST(ObservationIntake, TakesMasksAlongWithTheImages) {
   EXPECT_EQ(frame.mask.row(3)[4], 0);
   EXPECT_EQ(frame.mask.row(5)[6], 255);
   EXPECT_EQ(frame.right_mask.row(5)[6], 0);
+  cv::imwrite(base + "_left.png", test::ramp(11));  // one that repeats would be passed over
   EXPECT_TRUE(frame_of(intake, *test::external_pair("PAIR", 1, base)).mask.empty());
 }
 

@@ -5,6 +5,10 @@
 
 #include <Eigen/Cholesky>
 #include <Eigen/Geometry>
+#include <Eigen/LU>
+
+#include <algorithm>
+#include <vector>
 
 namespace oneac {
 namespace {
@@ -27,22 +31,78 @@ Matrix65 tangent_basis(const Eigen::Vector3d& t) {
   return basis;
 }
 
+/// [-] A term whose residual the fit could choose freely to this share says nothing of the noise.
+constexpr double kMostLeverage = 0.98;
+
+// [-] Where few terms tell, their own residuals tell the noise poorly, and that of all terms is
+// added: in full from a leverage of a quarter on, which eight points have that tell two numbers.
+constexpr double kOfOthers = 4.0;
+
+/// One term's residual, its derivative in the tangent space, and its robust weight.
+template <int N>
+struct Linearised {
+  Eigen::Matrix<double, N, 1> r;
+  Eigen::Matrix<double, N, 5> J;
+  double weight = 0.0;
+};
+
+template <int N>
+Linearised<N> linearised(const EpipolarTerm<N>& term, const RelativePose& pose,
+                         const Matrix65& basis, double loss_sigmas) {
+  Linearised<N> result;
+  result.r = term.r;
+  for (int k = 0; k < N; ++k) result.J.row(k) = pose_derivative(term.dE[k], pose) * basis;
+  result.weight = cauchy_weight(term.r.squaredNorm(), loss_sigmas * loss_sigmas);
+  return result;
+}
+
+/// All terms of one kind.
+template <int N>
+using Terms = std::vector<Linearised<N>>;
+
+/// What all terms have in common, to judge each one by.
+struct Common {
+  Matrix5 normal = Matrix5::Zero();
+  Matrix5 inverse = Matrix5::Zero();  ///< of the normal matrix
+  double weights = 0.0;
+  double squares = 0.0;
+
+  template <int N>
+  void add(const Terms<N>& terms) {
+    for (const Linearised<N>& term : terms) {
+      normal += term.weight * term.J.transpose() * term.J;
+      weights += N * term.weight;
+      squares += term.weight * term.r.squaredNorm();
+    }
+  }
+  /// Of one residual, robustly.
+  [[nodiscard]] double variance() const { return weights > 0.0 ? squares / weights : 0.0; }
+};
+
 /// M and V of the header, summed over all terms.
 struct Sandwich {
   Matrix5 M = Matrix5::Zero();
   Matrix5 V = Matrix5::Zero();
 
   template <int N>
-  void add(const EpipolarTerm<N>& term, const RelativePose& pose, const Matrix65& basis,
-           double loss_sigmas) {
-    Eigen::Matrix<double, N, 5> J;
-    for (int k = 0; k < N; ++k) J.row(k) = pose_derivative(term.dE[k], pose) * basis;
-    const double c2 = loss_sigmas * loss_sigmas;
-    const double weight = cauchy_weight(term.r.squaredNorm(), c2);
-    const Eigen::Matrix<double, 1, 5> rJ = term.r.transpose() * J;
-    const Matrix5 squared_slope = weight * weight * rJ.transpose() * rJ;
-    M += weight * J.transpose() * J - 2.0 / c2 * squared_slope;
-    V += squared_slope + kSmallestVariance * J.transpose() * J;
+  void add(const Terms<N>& terms, const Common& common, double loss_sigmas) {
+    for (const Linearised<N>& term : terms) add(term, common, loss_sigmas);
+  }
+
+  template <int N>
+  void add(const Linearised<N>& term, const Common& common, double loss_sigmas) {
+    using MatrixN = Eigen::Matrix<double, N, N>;
+    const Eigen::Matrix<double, 1, 5> rJ = term.r.transpose() * term.J;
+    const double squared_weight = term.weight * term.weight;
+    M += term.weight * term.J.transpose() * term.J -
+         2.0 / (loss_sigmas * loss_sigmas) * squared_weight * rJ.transpose() * rJ;
+    const MatrixN leverage = term.weight * term.J * common.inverse * term.J.transpose();
+    const MatrixN kept =
+        MatrixN::Identity() - leverage * std::min(1.0, kMostLeverage / leverage.trace());
+    const Eigen::Matrix<double, 1, 5> freed = (kept.inverse() * term.r).transpose() * term.J;
+    const double by_others = std::min(kOfOthers * leverage.trace(), 1.0) * common.variance();
+    V += squared_weight * (freed.transpose() * freed + by_others * term.J.transpose() * term.J) +
+         kSmallestVariance * term.J.transpose() * term.J;
   }
 };
 
@@ -52,16 +112,28 @@ Eigen::Matrix<double, 6, 6> two_view_information(const TwoViewTerms& terms,
                                                  const RelativePose& pose) {
   const Eigen::Matrix3d E = essential_matrix(pose);
   const Matrix65 basis = tangent_basis(pose.t);
-  Sandwich sums;
+  Terms<1> points;
+  Terms<2> affinities;
   for (std::size_t i = 0; i < terms.acs.size(); ++i) {
     const AffineCorrespondence& ac = terms.acs[i];
     if (terms.with_point[i]) {
-      sums.add(point_term(E, ac, terms.noise), pose, basis, terms.loss_sigmas);
+      points.push_back(linearised(point_term(E, ac, terms.noise), pose, basis, terms.loss_sigmas));
     }
     if (terms.with_affine[i]) {
-      sums.add(affine_term(E, ac, terms.noise), pose, basis, terms.loss_sigmas);
+      affinities.push_back(
+          linearised(affine_term(E, ac, terms.noise), pose, basis, terms.loss_sigmas));
     }
   }
+  Common common;
+  common.add(points);
+  common.add(affinities);
+  const Eigen::LDLT<Matrix5> factor(common.normal);
+  if (factor.info() != Eigen::Success || !(factor.rcond() > kSingular))
+    return Eigen::Matrix<double, 6, 6>::Zero();
+  common.inverse = factor.solve(Matrix5::Identity());
+  Sandwich sums;
+  sums.add(points, common, terms.loss_sigmas);
+  sums.add(affinities, common, terms.loss_sigmas);
   const Eigen::LDLT<Matrix5> V(sums.V);
   if (V.info() != Eigen::Success || !(V.rcond() > kSingular))
     return Eigen::Matrix<double, 6, 6>::Zero();

@@ -6,8 +6,12 @@
 
 #include <gtest/gtest.h>
 
+#include <Eigen/Geometry>
+
+#include <algorithm>
 #include <cmath>
 #include <limits>
+#include <vector>
 
 namespace oneac {
 namespace {
@@ -204,23 +208,41 @@ TEST(RefineTwoView, GivesTheSameBitsEachTime) {
   EXPECT_EQ(first.information, second.information);
 }
 
-/// Mean of eᵀ Λ e over 100 scenes, e the error of the pose and Λ its information.
+/// eᵀ Λ e, e the error of the pose and Λ its information.
+double normalised_error(const test::TwoViewScene& scene, const RefineOptions& options) {
+  const RefineResult result = refine(scene, scene.truth, options);
+  EXPECT_LT((result.information.rightCols<3>() * result.pose.t).norm(),
+            1e-9 * result.information.norm());
+  const Eigen::Matrix3d dR = scene.truth.R * result.pose.R.transpose();
+  Eigen::Matrix<double, 6, 1> error;
+  error << 0.5 * (dR(2, 1) - dR(1, 2)), 0.5 * (dR(0, 2) - dR(2, 0)), 0.5 * (dR(1, 0) - dR(0, 1)),
+      scene.truth.t - result.pose.t;
+  return error.dot(result.information * error);
+}
+
 double mean_normalised_error(const test::Noise& noise, const RefineOptions& options) {
   SceneGenerator generator(22);
   double sum = 0.0;
   constexpr int kTrials = 100;
   for (int trial = 0; trial < kTrials; ++trial) {
-    const auto scene = test::street(generator, 400, noise);
-    const RefineResult result = refine(scene, scene.truth, options);
-    EXPECT_LT((result.information.rightCols<3>() * result.pose.t).norm(),
-              1e-9 * result.information.norm());
-    const Eigen::Matrix3d dR = scene.truth.R * result.pose.R.transpose();
-    Eigen::Matrix<double, 6, 1> error;
-    error << 0.5 * (dR(2, 1) - dR(1, 2)), 0.5 * (dR(0, 2) - dR(2, 0)), 0.5 * (dR(1, 0) - dR(0, 1)),
-        scene.truth.t - result.pose.t;
-    sum += error.dot(result.information * error);
+    sum += normalised_error(test::street(generator, 400, noise), options);
   }
   return sum / kTrials;
+}
+
+/// Houses far away under the same noise, and a few near points that alone tell the direction.
+test::TwoViewScene far_scenery(SceneGenerator& generator, std::size_t near,
+                               const test::Noise& noise) {
+  test::TwoViewScene scene = test::street(generator, 200, {});
+  for (std::size_t i = 0; i < scene.acs.size(); ++i) {
+    AffineCorrespondence& ac = scene.acs[i];
+    if (i >= near) {
+      const Eigen::Vector3d X = scene.truth.R * ac.x1.homogeneous() + 0.001 * scene.truth.t;
+      ac.x2 = X.hnormalized();
+    }
+    ac = test::disturbed(generator, ac, noise);
+  }
+  return scene;
 }
 
 TEST(RefineTwoView, InformationFollowsTheScatter) {
@@ -231,6 +253,17 @@ TEST(RefineTwoView, InformationFollowsTheScatter) {
   RefineOptions wrong_noise = points_alone();  // half of what the points have
   wrong_noise.loss_sigmas = 4.0;
   EXPECT_NEAR(mean_normalised_error({0.4, 0.05}, wrong_noise), 5.0, kTolerance);
+}
+
+TEST(RefineTwoView, InformationOfAFewNearPointsIsNotThatOfTheirResiduals) {
+  SceneGenerator generator(23);
+  std::vector<double> errors;
+  for (int trial = 0; trial < 200; ++trial) {
+    errors.push_back(normalised_error(far_scenery(generator, 8, {0.2, 0.05}), points_alone()));
+  }
+  std::sort(errors.begin(), errors.end());
+  EXPECT_LT(errors[100], 6.0) << "median; of chi-squared with five degrees of freedom 4.4";
+  EXPECT_LT(errors[190], 15.0) << "one of twenty; of chi-squared 11";
 }
 
 }  // namespace

@@ -135,6 +135,8 @@ void take_fit(const Problem& problem, const RoadFit& fit, double beside,
   result.T_2_1 = fitted_pose(fit.motion, problem.forward);
   result.normal =
       problem.forward ? fit.motion.n : Eigen::Vector3d(fit.motion.R_b_a.transpose() * fit.motion.n);
+  result.roll = fit.z(2);
+  result.roll_sigma = std::sqrt(std::max(fit.covariance(2, 2), 0.0));
 }
 
 /// Statistics of a fit, whatever comes of it.

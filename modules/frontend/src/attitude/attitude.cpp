@@ -5,11 +5,23 @@
 
 #include "oneac/geometry/angles.h"
 
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
 namespace oneac {
 namespace {
 
 // [rad] 1σ of a vehicle against the horizon, over the minutes of a drive.
 constexpr double kLevelVehicle = 1.0 * kDegree;
+
+/// [rad] 1σ of the elevation of a step's direction, as the images know it; 0: not known.
+double elevation_sigma(const StepResult& step, const Eigen::Vector3d& down) {
+  const double length2 = step.pose.t.squaredNorm();
+  if (!(length2 > 0.0)) return 0.0;
+  const Eigen::Matrix3d covariance = step.covariance.bottomRightCorner<3, 3>() / length2;
+  return std::sqrt(std::max(down.dot(covariance * down), 0.0));
+}
 
 }  // namespace
 
@@ -24,13 +36,20 @@ Attitude::Source Attitude::source_of(const std::string& name) {
 
 void Attitude::start(const Eigen::Matrix3d& R_vehicle_cam) {
   R_vehicle_cam_ = R_vehicle_cam;
-  mounting_.emplace(given(), options_);
+  mounting_.emplace(given(), options_, is_told());
   road_.emplace(mounting_->belief());
 }
 
 void Attitude::add_inertial(const InertialReading& reading) {
   gravity_.add(reading);
   if (mounting_ && source_ == Source::kImu) mounting_->set_given(given());
+}
+
+bool Attitude::is_told() const {
+  if (source_ != Source::kLog) return true;
+  constexpr double kExactly = 1e-6;  // [rad]
+  const Tilt log = tilt_from_mounting(R_vehicle_cam_);
+  return std::abs(log.pitch_up) > kExactly || std::abs(log.roll_right) > kExactly;
 }
 
 Tilt Attitude::given() const {
@@ -54,19 +73,30 @@ void Attitude::see(const TwoView& seen) {
   const auto travel = travel_in_first_view(seen);
   if (!travel) return;
   has_seen_ = true;
+  has_begun_ = true;
+  // One way alone is no match for a mount that somebody stated.
   TiltEstimator first = *mounting_;  // the step itself comes with follow()
-  first.add_step(seen.pose);
+  if (!is_told()) first.add_step(seen.pose);
   road_->begin(*travel, first.belief());
+}
+
+void Attitude::see_road(const AngleBelief& roll_right) {
+  if (mounting_) mounting_->see_road(roll_right);
 }
 
 void Attitude::follow(const StepResult& step) {
   if (!mounting_) return;
+  const bool known = std::exchange(has_begun_, false);
   if (step.status == StepStatus::kPredicted) {
     road_->lose(mounting_->belief());
     return;
   }
-  road_->add_step(tilt_step(step), mounting_->belief());
-  if (step.status == StepStatus::kOk) mounting_->add_step(step.pose);
+  TiltStep moved = tilt_step(step);
+  if (known) moved.travel.reset();
+  road_->add_step(moved, mounting_->belief());
+  if (step.status == StepStatus::kOk) {
+    mounting_->add_step(step.pose, elevation_sigma(step, now().R_level_cam.row(1).transpose()));
+  }
 }
 
 TiltBelief Attitude::mounting() const {

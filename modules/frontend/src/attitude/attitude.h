@@ -26,8 +26,10 @@ class Attitude {
   /// For the tilt source "imu"; may come before the first frame.
   void add_inertial(const InertialReading& reading);
   /// The first step that moves shows how the camera leans before its length is asked of the road: a
-  /// pitch that nobody told is often degrees off.
+  /// pitch that nobody told is often degrees off. follow() does not count its direction again.
   void see(const TwoView& seen);
+  /// The plane of a road in view shows the camera's roll to the right against it [rad].
+  void see_road(const AngleBelief& roll_right);
   /// Learns from a step, which ends at the newest frame from then on.
   void follow(const StepResult& step);
 
@@ -47,6 +49,8 @@ class Attitude {
 
   [[nodiscard]] static Source source_of(const std::string& name);
   [[nodiscard]] Tilt given() const;
+  /// A log whose camera is exactly level says nothing of its mount.
+  [[nodiscard]] bool is_told() const;
   [[nodiscard]] Levelling levelling(double pitch_up) const;
 
   TiltOptions options_;
@@ -56,6 +60,7 @@ class Attitude {
   std::optional<TiltEstimator> mounting_;  ///< from the first frame on
   std::optional<SuspensionTilt> road_;     ///< from the first frame on
   bool has_seen_ = false;                  ///< a step that moves
+  bool has_begun_ = false;                 ///< with the step that follow() is told next
 };
 
 }  // namespace oneac

@@ -15,7 +15,7 @@ namespace {
 
 // [rad] pitch that braking and speeding up give a car on its springs, 1σ: 3° per g at 0.3 g.
 constexpr double kSprings = 1.0 * kDegree;
-// [rad] roll that bends give it, 1σ: 5° per g at 0.2 g, and how long it lasts [s].
+// [rad] roll that bends give it, 1σ: 5° per g at 0.2 g, and how long both last [s].
 constexpr double kLean = 1.0 * kDegree;
 constexpr double kBend = 2.0;
 // [rad] 1σ of a turn between two images, about one axis.
@@ -28,6 +28,9 @@ constexpr double kFarthest = 3.0;
 // [rad] 1σ of the pitch of a step whose direction rain or a truck has led astray: its turn is off,
 // too.
 constexpr double kAstray = 0.3 * kDegree;
+// [s] What leads the directions that images tell astray lasts so long: headlights that move with
+// the car, drops, a vehicle ahead. More images in that time see the same.
+constexpr double kLasting = 0.5;
 
 double squared(double value) {
   return value * value;
@@ -60,14 +63,19 @@ Tilt SuspensionTilt::tilt_before(const Eigen::Matrix3d& R_now_before) const {
 
 void SuspensionTilt::begin(const TiltStep::Travel& travel, const TiltBelief& mounting) {
   lose(mounting);
-  measure_travel(travel, mounting);
+  const double before = tilt_.pitch_up, sigma_before = std::sqrt(covariance_(0, 0));
+  measure_travel(travel, kLasting, mounting);
+  // One way and a mount that contradict each other: one of them is wrong, and nothing says which
+  // (Birge's ratio of two).
+  const double contradiction = (tilt_.pitch_up - before) / sigma_before;
+  covariance_ *= std::max(squared(contradiction), 1.0);
 }
 
 void SuspensionTilt::add_step(const TiltStep& step, const TiltBelief& mounting) {
   if (!step.R_2_1.allFinite()) return;
   turn(step);
-  if (step.travel) measure_travel(*step.travel, mounting);
-  hold_roll(step.seconds, mounting);
+  if (step.travel) measure_travel(*step.travel, step.seconds, mounting);
+  hold(step.seconds, mounting);
 }
 
 void SuspensionTilt::turn(const TiltStep& step) {
@@ -81,12 +89,14 @@ void SuspensionTilt::turn(const TiltStep& step) {
   covariance_.diagonal().array() += squared(kTurn) + squared(kSlopeWalk) * step.length;
 }
 
-void SuspensionTilt::measure_travel(const TiltStep::Travel& travel, const TiltBelief& mounting) {
+void SuspensionTilt::measure_travel(const TiltStep::Travel& travel, double seconds,
+                                    const TiltBelief& mounting) {
   const Eigen::Vector3d along = levelling_rotation(tilt_) * travel.direction;
   if (!(std::abs(along.z()) > kMainlyForward)) return;
   // A normal that is pitched up or rolled right too far has the travel rise or fall, by so much.
   const Eigen::Vector3d normal = road_normal(tilt_);
-  const double by_images = std::max(normal.dot(travel.covariance * normal), 0.0);
+  const double alike = seconds > 0.0 ? std::max(kLasting / seconds, 1.0) : 1.0;
+  const double by_images = alike * std::max(normal.dot(travel.covariance * normal), 0.0);
   const double variance = squared(travel.sigma) + by_images;
   // Springs go so far and no farther, so that is no way on wheels.
   const double springs = std::sqrt(squared(kSprings) + squared(mounting.pitch_sigma) + variance);
@@ -99,11 +109,14 @@ void SuspensionTilt::measure_travel(const TiltStep::Travel& travel, const TiltBe
           std::sqrt(variance));
 }
 
-void SuspensionTilt::hold_roll(double seconds, const TiltBelief& mounting) {
+void SuspensionTilt::hold(double seconds, const TiltBelief& mounting) {
   if (!(seconds > 0.0)) return;
-  // One independent sight of the roll in 2 kBend, of a roll that varies by this.
-  const double sigma = std::hypot(mounting.roll_sigma, kLean) * std::sqrt(2.0 * kBend / seconds);
-  measure({0.0, 1.0}, wrapped_angle(tilt_.roll_right - mounting.tilt.roll_right), sigma);
+  // One independent sight of pitch and roll in 2 kBend, of angles that vary by this.
+  const double rarely = std::sqrt(2.0 * kBend / seconds);
+  measure({1.0, 0.0}, tilt_.pitch_up - mounting.tilt.pitch_up,
+          rarely * std::hypot(mounting.pitch_sigma, kSprings));
+  measure({0.0, 1.0}, wrapped_angle(tilt_.roll_right - mounting.tilt.roll_right),
+          rarely * std::hypot(mounting.roll_sigma, kLean));
 }
 
 /// @param off  row · (error of the tilt) + noise

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "oneac/features/correspondence.h"
+#include "oneac/frontend/tilt_belief.h"
 #include "oneac/geometry/affine_correspondence.h"
 #include "oneac/geometry/relative_pose.h"
 
@@ -39,7 +40,8 @@ struct MeasuredTravel {
   double sigma = 0.0;   ///< 1σ, in the same unit
   LengthSource source = LengthSource::kRoadImage;
   bool in_metres = false;
-  double reach = 0.0;  ///< [heights] how far ahead the road is that tells it
+  double reach = 0.0;           ///< [heights] how far ahead the road is that tells it
+  AngleBelief roll_right = {};  ///< [rad] of the camera against that road; σ 0: not seen
 };
 
 /// True length over length in the map.

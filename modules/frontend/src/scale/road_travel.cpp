@@ -5,6 +5,8 @@
 #include "two_view/below_the_sky.h"
 #include "two_view/course.h"
 
+#include "oneac/geometry/levelling.h"
+
 #include <algorithm>
 #include <cmath>
 
@@ -71,6 +73,15 @@ double room_beside(const TwoView& seen) {
                      {seen.pose.R, seen.pose.t.normalized()});
 }
 
+/// The roll to the right of the first view against the road, by the road alone.
+AngleBelief roll_against(const RoadStep& step, const RoadAlignment& aligned) {
+  const double prior = 1.0 / (step.roll_sigma * step.roll_sigma);
+  const double both = 1.0 / (aligned.roll_sigma * aligned.roll_sigma);
+  if (!(aligned.roll_sigma > 0.0) || both < 2.0 * prior) return {};
+  const double believed = tilt_from_down(step.R_level_cam.row(1).transpose()).roll_right;
+  return {believed + aligned.roll * both / (both - prior), 1.0 / std::sqrt(both - prior)};
+}
+
 }  // namespace
 
 std::optional<MeasuredTravel> road_travel(const RoadPair& road, const TwoView& seen,
@@ -106,8 +117,12 @@ std::optional<MeasuredTravel> road_travel(const RoadPair& road, const TwoView& s
   }
   if (looks_aside(step) && aligned.length > reach) return std::nullopt;
   const double unit = prior.camera_height > 0.0 ? prior.camera_height : 1.0;
-  return MeasuredTravel{aligned.length * unit, sigma * unit, LengthSource::kRoadImage,
-                        prior.camera_height > 0.0, aligned.reach};
+  return MeasuredTravel{aligned.length * unit,
+                        sigma * unit,
+                        LengthSource::kRoadImage,
+                        prior.camera_height > 0.0,
+                        aligned.reach,
+                        looks_aside(step) ? AngleBelief{} : roll_against(step, aligned)};
 }
 
 }  // namespace oneac

@@ -44,6 +44,14 @@ Basin basin_of(const RefineResult& result, double surprise) {
           result.final_cost + surprise};
 }
 
+/// Whether the images alone are sure of another way. A handful of points in the dark is not.
+bool contradicts(const Basin& free, const Course& course) {
+  constexpr double kSure = 5.0;  // [σ] far from the minimum, where σ is no more than a guess
+  const double variance = free.covariance.bottomRightCorner<3, 3>().trace();
+  const double off = direction_error(free.pose.t, course.direction);
+  return variance > 0.0 && off > kSure * std::sqrt(variance);
+}
+
 /// From one pose to another, as covariances count it: (w, v).
 Vector6 difference(const RelativePose& from, const RelativePose& to) {
   const Eigen::AngleAxisd turn(to.R * from.R.transpose());
@@ -103,9 +111,10 @@ TwoView in_likelier_basin(TwoView found, const std::vector<bool>& told, const Co
       refine_two_view(acs, told, {found.pose.R, course.direction}, found.focal_px, refine,
                       {course.direction, course.sigma});
   if (!here.usable() || !there.usable()) return found;
+  const Basin free = basin_of(here, surprise(here.pose.t, course));
   found.kept_on_course = !is_drivable(here.pose.t, course);
-  return of_two(basin_of(here, surprise(here.pose.t, course)), basin_of(there, 0.0),
-                std::move(found), acs, told, threshold_px);
+  found.doubts_course = found.kept_on_course && contradicts(free, course);
+  return of_two(free, basin_of(there, 0.0), std::move(found), acs, told, threshold_px);
 }
 
 }  // namespace oneac

@@ -43,6 +43,7 @@ struct TwoView {
   std::vector<bool> inliers;  ///< one per correspondence; empty when predicted
   std::optional<MotionEvidence> motion;  ///< where rest was in question
   bool kept_on_course = false;  ///< the images alone wanted a direction that no wheels take
+  bool doubts_course = false;   ///< and were sure of it
   std::size_t inlier_count = 0;
   double focal_px = 1.0;                      ///< [px] of one normalised unit
   double estimate_ms = 0.0, refine_ms = 0.0;  ///< CPU time [ms]

@@ -29,7 +29,7 @@ struct TiltStep {
 ///
 /// Extended Kalman filter over the road's normal in the camera. The images' rotation turns it, the
 /// road's slope and cross fall change a little on the way. Measured by the direction of travel,
-/// which lies in the road, and held by the mounting's roll as far as a body on springs keeps it. A
+/// which lies in the road, and held by the mounting as far as a body on springs keeps it. A
 /// pitch alone would take the yaw of a leaning car for pitching: 1° of lean in a bend of 90° adds
 /// up to 1.6°.
 class SuspensionTilt {
@@ -51,8 +51,9 @@ class SuspensionTilt {
 
  private:
   void turn(const TiltStep& step);
-  void measure_travel(const TiltStep::Travel& travel, const TiltBelief& mounting);
-  void hold_roll(double seconds, const TiltBelief& mounting);
+  /// @param seconds  since the measurement before
+  void measure_travel(const TiltStep::Travel& travel, double seconds, const TiltBelief& mounting);
+  void hold(double seconds, const TiltBelief& mounting);
   void measure(const Eigen::Vector2d& row, double off, double sigma);
 
   Tilt tilt_;

@@ -17,19 +17,24 @@ namespace oneac {
 /// is worth some steps of driving, and less the more the drive contradicts it. Roll: a vehicle
 /// turns about its upright, so over a bend the rotation of a levelled camera has no part about its
 /// axis; least squares of the roll's share against the yaw's, held by the given roll, over a longer
-/// past, since bends are rare. What the springs pitch is its noise, taken from the drive. On
-/// straight roads the given roll stays. With source "drive" there is nothing given: the first steps
-/// set the pitch.
+/// past, since bends are rare. What the springs pitch is its noise, taken from the drive. The
+/// road's own plane shows the roll, too, on straight ways as well, as far as it is not itself
+/// inclined. With source "drive" there is nothing given: the first steps set the pitch.
 class TiltEstimator {
  public:
   /// @param given  [rad] to start from; with source "drive" only a place to look near
-  TiltEstimator(const Tilt& given, const TiltOptions& options);
+  /// @param told   somebody stated it; else it is what a log reads that says nothing
+  TiltEstimator(const Tilt& given, const TiltOptions& options, bool told = true);
 
   /// Replaces what is given, e.g. by a longer mean of the accelerometer.
-  void set_given(const Tilt& given);
-  /// Learns from a motion of the (tilted) camera. Steps that are not mainly forward say
-  /// nothing about pitch.
-  void add_step(const RelativePose& T_2_1);
+  void set_given(const Tilt& given, bool told = true);
+  /// Learns from a motion of the (tilted) camera. Steps that are not mainly forward say nothing
+  /// about pitch, nor do those whose direction the images hardly know: before far scenery it
+  /// follows what little else moves, all the same way.
+  /// @param elevation_sigma  [rad] 1σ of the direction's elevation by the images; 0: not known
+  void add_step(const RelativePose& T_2_1, double elevation_sigma = 0.0);
+  /// Learns from the plane of the road in view: roll to the right of the camera against it [rad].
+  void see_road(const AngleBelief& roll_right);
 
   /// [rad] as believed now.
   [[nodiscard]] const Tilt& tilt() const { return belief_.tilt; }
@@ -41,13 +46,18 @@ class TiltEstimator {
   void update();
   [[nodiscard]] double pitch_correction(double& sigma) const;
   [[nodiscard]] double worth_of_given(double off) const;
+  [[nodiscard]] double given_roll_sigma() const;
+  /// Of the given roll, by the road's plane; none seen: σ is infinite.
+  [[nodiscard]] AngleBelief roll_off_by_road() const;
   [[nodiscard]] double roll_correction(double& sigma) const;
 
   Tilt given_;
+  bool told_;
   TiltOptions options_;
   bool unknown_;                         ///< source "drive": nothing is given
   std::deque<Eigen::Vector3d> travels_;  ///< unit, forward, in the camera
   std::deque<Eigen::Vector3d> turns_;    ///< [rad] rotation vectors in the camera
+  std::deque<AngleBelief> roads_;        ///< [rad] roll against the road's plane
   TiltBelief belief_;
 };
 

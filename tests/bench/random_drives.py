@@ -1,0 +1,124 @@
+#!/usr/bin/python3
+"""Simulated drives drawn at random: does what is called metric lie within its sigma?
+
+Usage: random_drives.py ONEAC FOLDER [--first N] [--count N]
+
+Every number is a drive: its camera, mount, road, light, traffic and speed follow from it. Prints
+per drive what nasty_drives.py prints, the flags of `oneac simulate`, and *** where a metric pair
+is beyond 5 sigma, ** where fewer than 85 % are within 2 sigma. Takes about ten seconds a drive;
+drives are kept in FOLDER and used again. Needs python3-numpy.
+"""
+import argparse
+import pathlib
+import random
+import shutil
+
+from nasty_drives import call, judge
+
+
+def some(r, share, *flags):
+    """The flags, in so many of the drives."""
+    return list(flags) if r.random() < share else []
+
+
+def springs(r):
+    return ['--suspension-pitch', round(r.uniform(0, 0.8), 2),
+            '--suspension-roll', round(r.uniform(0, 0.6), 2)]
+
+
+def camera(r):
+    size = r.choice([(640, 360), (800, 450), (640, 480), (400, 300)])
+    focal = round(size[0] * r.uniform(0.45, 1.3))
+    flags = some(r, 0.5, '--width', size[0], '--height', size[1], '--focal', focal)
+    flags += ['--fps', r.choice([5, 10, 10, 15, 20, 30]), '--speed', round(r.uniform(3, 14), 1),
+              '--camera-height', round(r.uniform(0.9, 2.8), 2),
+              '--tilt-deg', round(r.uniform(-8, 8), 1)]
+    mount = r.random()
+    if mount < 0.25:
+        flags += ['--silent-mount']
+    elif mount < 0.4:
+        flags += ['--mount-roll', r.choice([3, -5, 10, 90, 180])]
+    elif mount < 0.5:
+        flags += ['--mount-yaw', r.choice([5, -10, 25, 60, 180, -90])]
+    return flags
+
+
+def traffic(r, route):
+    if r.random() < 0.2:
+        return ['--traffic', 'crossing']
+    if route not in ('straight', 'stop-and-go'):
+        return []
+    return some(r, 0.4, '--traffic', r.choice(['overtaking', 'oncoming', 'truck']),
+                '--truck-gap', r.choice([6, 10, 20]))
+
+
+def scene(r):
+    route = r.choice(['street', 'straight', 'stop-and-go', 'roundabout', 'street'])
+    flags = ['--route', route] + traffic(r, route)
+    flags += some(r, 0.5, *springs(r)) + some(r, 0.2, '--slope', r.choice([-8, -4, 4, 8]))
+    flags += some(r, 0.25, '--scenery', 'far')
+    flags += some(r, 0.4, '--road', r.choice(['dark', 'dashes']))
+    flags += some(r, 0.15, '--night') + some(r, 0.12, '--rain') + some(r, 0.1, '--wiper')
+    flags += some(r, 0.15, '--exposure-jumps')
+    flags += some(r, 0.15, '--bonnet', round(r.uniform(0.08, 0.3), 2))
+    flags += some(r, 0.15, '--rolling-shutter', r.choice([0.01, 0.02, 0.03]))
+    flags += some(r, 0.3, '--noise', r.choice([1, 4, 8]))
+    if route == 'street':
+        flags += some(r, 0.2, '--stop', r.choice([1, 3]))
+    return flags
+
+
+def drive_flags(number):
+    """Of `oneac simulate`."""
+    r = random.Random(number)
+    flags = ['--seed', number, '--frames', r.choice([80, 120, 160])] + camera(r) + scene(r)
+    return [str(flag) for flag in flags]
+
+
+def run_flags(flags):
+    """A log that is silent about its mount says no height, either; somebody measured it."""
+    if '--silent-mount' not in flags:
+        return []
+    return ['--set', 'front_end.camera_height=' + flags[flags.index('--camera-height') + 1]]
+
+
+def report(number, flags, count, said):
+    share = 100 * count['within_2'] / count['metric'] if count['metric'] else 100
+    mark = '***' if count['beyond_5'] else '**' if share < 85 else ''
+    print(f"{number:4} {mark:3} metric {count['metric']} of {count['pairs']}, "
+          f"{count['way']:.1f} of {count['true_way']:.1f} m, wrong {count['wrong']}, "
+          f"within 2 sigma {share:.0f} %, beyond 5 sigma {count['beyond_5']} | "
+          f"{' '.join(flags)} | {said}", flush=True)
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__,
+                                     formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument('oneac')
+    parser.add_argument('folder', type=pathlib.Path)
+    parser.add_argument('--first', type=int, default=0)
+    parser.add_argument('--count', type=int, default=60)
+    asked = parser.parse_args()
+    total = dict(metric=0, within_2=0, beyond_5=0, pairs=0, wrong=0)
+    for number in range(asked.first, asked.first + asked.count):
+        flags = drive_flags(number)
+        drive, out = asked.folder / str(number), asked.folder / f'{number}-run'
+        if not (drive / 'poses.txt').exists():
+            call(asked.oneac, 'simulate', '-o', drive, '--no-progress', *flags)
+        shutil.rmtree(out, ignore_errors=True)
+        code, said = call(asked.oneac, 'run', drive / 'simulated.rawlog', '-o', out,
+                          '--no-progress', *run_flags(flags))
+        if not (out / 'relative_poses.csv').exists():
+            print(f'{number:4} exit {code}: {said} | {" ".join(flags)}', flush=True)
+            continue
+        count = judge(out / 'relative_poses.csv', drive / 'poses.txt')
+        report(number, flags, count, said)
+        for key in total:
+            total[key] += count[key]
+    share = 100 * total['within_2'] / max(total['metric'], 1)
+    print(f"all: metric {total['metric']} of {total['pairs']}, wrong {total['wrong']}, "
+          f"within 2 sigma {share:.1f} %, beyond 5 sigma {total['beyond_5']}")
+
+
+if __name__ == '__main__':
+    main()
