@@ -138,33 +138,22 @@ Vector6 turned_more(const Eigen::Isometry3d& T, double by) {
   return change;
 }
 
-/// What each shared error of one σ does to all poses.
-std::vector<Eigen::VectorXd> shared_modes(const Equations& equations,
-                                          const internal::SelectedInverse& inverse,
-                                          const std::vector<Edge>& edges,
-                                          const SharedErrors& shared) {
-  std::vector<Eigen::VectorXd> modes;
-  modes.push_back(inverse.times(equations.right_side(
-      [](const Edge& edge) { return longer(edge.pose.T, edge.length_of_all); })));
-  modes.push_back(inverse.times(equations.right_side(
-      [&](const Edge& edge) { return turned_more(edge.pose.T, shared.turn); })));
+/// Visits what each shared error of one σ does to all poses, one after the other: of a long drive
+/// they would not fit into memory together.
+template <class Visit>
+void visit_shared_modes(const Equations& equations, const internal::SelectedInverse& inverse,
+                        const std::vector<Edge>& edges, const SharedErrors& shared, Visit&& visit) {
+  const auto mode = [&](auto&& error) { visit(inverse.times(equations.right_side(error))); };
+  mode([](const Edge& edge) { return longer(edge.pose.T, edge.length_of_all); });
+  mode([&](const Edge& edge) { return turned_more(edge.pose.T, shared.turn); });
   std::size_t stretches = 0;
   for (const Edge& edge : edges) stretches = std::max(stretches, edge.stretch + 1);
   for (std::size_t stretch = 0; stretch < stretches; ++stretch) {
-    modes.push_back(inverse.times(equations.right_side([&](const Edge& edge) -> Vector6 {
+    mode([&](const Edge& edge) -> Vector6 {
       if (edge.stretch != stretch) return Vector6::Zero();
       return longer(edge.pose.T, edge.length_of_stretch);
-    })));
+    });
   }
-  return modes;
-}
-
-/// Of a change (translation, rotation vector) on the right as one of (θ, p).
-Matrix6 in_world(const Matrix6& covariance, const Eigen::Matrix3d& R) {
-  Matrix6 M = Matrix6::Zero();
-  M.topRightCorner<3, 3>() = R;
-  M.bottomLeftCorner<3, 3>() = R;
-  return M * covariance * M.transpose();
 }
 
 }  // namespace
@@ -181,20 +170,24 @@ std::vector<Matrix6> closed_covariances(const std::vector<LoopKeyframe>& keyfram
   if (equations.size() == 0) return covariances;
   const auto inverse = internal::SelectedInverse::of(equations.matrix());
   if (!inverse) return covariances;
-  const auto modes = shared_modes(equations, *inverse, edges, shared);
   for (std::size_t k = 0; k < keyframes.size(); ++k) {
     if (equations.is_fixed(k)) continue;
     const Eigen::Index at = equations.place(k);
-    Matrix6 own;
     for (int row = 0; row < 6; ++row) {
       for (int column = 0; column < 6; ++column) {
-        own(row, column) = inverse->at(at + row, at + column);
+        covariances[k](row, column) = inverse->at(at + row, at + column);
       }
     }
-    for (const Eigen::VectorXd& mode : modes) {
-      own += mode.segment<6>(at) * mode.segment<6>(at).transpose();
+  }
+  visit_shared_modes(equations, *inverse, edges, shared, [&](const Eigen::VectorXd& mode) {
+    for (std::size_t k = 0; k < keyframes.size(); ++k) {
+      if (equations.is_fixed(k)) continue;
+      const auto change = mode.segment<6>(equations.place(k));
+      covariances[k] += change * change.transpose();
     }
-    covariances[k] = in_world(own, poses[k].linear());
+  });
+  for (std::size_t k = 0; k < keyframes.size(); ++k) {
+    if (!equations.is_fixed(k)) covariances[k] = in_world(covariances[k], poses[k].linear());
   }
   return covariances;
 }
