@@ -1,7 +1,7 @@
 #pragma once
 
 // Every difference between MRPT versions in observations and images, in one place (rtti.h has that
-// of the class factory's macro). Written for and tested with 2.5.8; compiles by design up to 2.15.
+// of the class factory's macro). Written for 2.5.8; 2.14.7 and 2.15.14 have run, too.
 //
 // What a port to 3.x needs, by its porting guide; none of it could be tried here:
 //  1. CMake: find_package(mrpt_obs) instead of (mrpt-obs), targets mrpt::mrpt_obs instead of
