@@ -156,6 +156,14 @@ void visit_shared_modes(const Equations& equations, const internal::SelectedInve
   }
 }
 
+/// Of a change (translation, rotation vector) on the right as one of (θ, p).
+Matrix6 in_world(const Matrix6& covariance, const Eigen::Matrix3d& R) {
+  Matrix6 M = Matrix6::Zero();
+  M.topRightCorner<3, 3>() = R;
+  M.bottomLeftCorner<3, 3>() = R;
+  return M * covariance * M.transpose();
+}
+
 }  // namespace
 
 std::vector<Matrix6> closed_covariances(const std::vector<LoopKeyframe>& keyframes,
