@@ -230,7 +230,8 @@ RoadStep step_of(const Row& pair, const Row& tilt, double height, const Settings
       levelling_rotation({pitch * kDegree, number(tilt, "roll_right_deg") * kDegree});
   step.pitch_sigma = kDegree * std::clamp(number(tilt, "suspension_sigma_deg"),
                                           s.value("--least-pitch-sigma", 0.1), 1.0);
-  step.roll_sigma = kDegree * s.value("--roll-sigma", std::clamp(number(tilt, "roll_sigma_deg"), 0.3, 1.5));
+  step.roll_sigma =
+      kDegree * s.value("--roll-sigma", std::clamp(number(tilt, "roll_sigma_deg"), 0.3, 1.5));
   step.max_length = s.value("--max-length", 3.0) / height;
   return step;
 }
@@ -310,7 +311,8 @@ void run(const Settings& s) {
           "at %.3f gain %.3f roll %.2f +- %.2f deg\n",
           i, j, to_string(result.status), metres, height * result.sigma, expected.value_or(0.0),
           result.correlation, result.blocks, result.textured, result.rival,
-          height * result.rival_length, result.gain, result.roll / kDegree, result.roll_sigma / kDegree);
+          height * result.rival_length, result.gain, result.roll / kDegree,
+          result.roll_sigma / kDegree);
     }
     if (!s.text("--draw").empty() && i % 40 == 0)
       draw(s.text("--draw") + std::to_string(i) + ".png", first, second, camera, result);
