@@ -57,7 +57,11 @@ std::vector<Turns> turns_in_windows(const Trajectory& vehicle, const std::vector
   std::array<GyroscopeHeading, 3> axes = headings_by_axes(imu);
   std::vector<Turns> turns;
   if (vehicle.times.empty() || axes.front().heading().empty()) return turns;
-  for (double t = vehicle.times.front(); t < vehicle.times.back(); t += kGrid_s) {
+  // From image to image: stamps may jump by years.
+  double next = vehicle.times.front();
+  for (const double t : vehicle.times) {
+    if (t < next) continue;
+    next = t + kGrid_s;
     const std::array<std::optional<double>, 4> seen{
         images.turn(t, t + kWindow_s), axes[0].heading().turn(t, t + kWindow_s),
         axes[1].heading().turn(t, t + kWindow_s), axes[2].heading().turn(t, t + kWindow_s)};
