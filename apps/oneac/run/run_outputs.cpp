@@ -255,7 +255,10 @@ std::string about_strange_gyroscope(const DriveRecord& record) {
   return fault ? about_gyroscope(*fault) : "";
 }
 
-std::vector<std::string> notes_about(const DriveRecord& record) {
+namespace {
+
+/// What became of the images themselves.
+std::vector<std::string> notes_about_images(const DriveRecord& record) {
   std::vector<std::string> notes;
   const SourceReport& source = record.source;
   if (source.images_missing > 0) {
@@ -274,9 +277,18 @@ std::vector<std::string> notes_about(const DriveRecord& record) {
         record.first_repeated + "), and were left out: the camera froze, or a video was stretched");
   }
   if (const std::string lone = about_lone_images(record); !lone.empty()) notes.push_back(lone);
+  return notes;
+}
+
+}  // namespace
+
+std::vector<std::string> notes_about(const DriveRecord& record) {
+  std::vector<std::string> notes = notes_about_images(record);
   if (!record.tilt_fallback.empty()) notes.push_back(record.tilt_fallback);
   if (const std::string gps = gps_beside_images(record); !gps.empty()) notes.push_back(gps);
-  if (!source.calibration_scaled.empty()) notes.push_back(source.calibration_scaled);
+  if (!record.source.calibration_scaled.empty()) {
+    notes.push_back(record.source.calibration_scaled);
+  }
   notes.insert(notes.end(), record.setup_faults.begin(), record.setup_faults.end());
   if (record.car_mask_refused) {
     notes.push_back(
