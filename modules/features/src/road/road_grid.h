@@ -8,6 +8,7 @@
 #include <Eigen/Core>
 
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <vector>
 
@@ -85,7 +86,8 @@ inline GreySample sample_at(const PyramidLevel& level, float u, float v) {
 /// Is the pixel of the full image not masked?
 [[nodiscard]] inline bool unmasked(const ImageView& mask, double u, double v) {
   if (mask.empty()) return true;
-  const int column = static_cast<int>(u + 0.5), row = static_cast<int>(v + 0.5);
+  const int column = static_cast<int>(std::floor(u + 0.5)),
+            row = static_cast<int>(std::floor(v + 0.5));
   return mask.data[static_cast<std::ptrdiff_t>(row) * mask.stride + column] >= 128;
 }
 

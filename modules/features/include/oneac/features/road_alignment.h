@@ -135,9 +135,9 @@ struct RoadAlignment {
   double relative_sigma = 0.0;  ///< [-] sigma / length; 0 for a length of 0
   RelativePose T_2_1;  ///< refined; t in camera heights; the pose given, |t| = 1, unless measured
   Eigen::Vector3d normal = Eigen::Vector3d::UnitY();  ///< of the road in the first view, refined
-  double roll = 0.0;  ///< [rad] by which the camera leans farther right than RoadStep said
-  double roll_sigma = 0.0;  ///< [rad] 1σ, what RoadStep said included; 0 unless measured
-  double correlation = 0.0;                           ///< [-] mean over the agreeing blocks
+  double roll = 0.0;          ///< [rad] by which the camera leans farther right than RoadStep said
+  double roll_sigma = 0.0;    ///< [rad] 1σ, what RoadStep said included; 0 unless measured
+  double correlation = 0.0;   ///< [-] mean over the agreeing blocks
   double rival = 0.0;         ///< [-] evidence of the second best length over that of the best
   double rival_length = 0.0;  ///< [heights] that length; 0: none
   double gain = 1.0;          ///< [-] second image over first, mean over the blocks
