@@ -17,8 +17,6 @@
 namespace oneac::internal {
 namespace {
 
-constexpr std::uint8_t kUsed = 128;  // half of white
-
 [[noreturn]] void refuse(const std::string& text) {
   throw std::invalid_argument("mask.polygon = '" + text +
                               "', must be corners \"u,v u,v u,v\", at least three");
@@ -73,14 +71,6 @@ bool FeatureMask::usable(const Eigen::Vector2d& u) const {
     if (inside(polygon, u)) return false;
   }
   return usable_in(picture_, u);
-}
-
-bool usable_in(const GreyImage& mask, const Eigen::Vector2d& u) {
-  if (mask.empty()) return true;
-  const auto column = static_cast<int>(std::lround(u.x()));
-  const auto row = static_cast<int>(std::lround(u.y()));
-  if (column < 0 || row < 0 || column >= mask.width() || row >= mask.height()) return false;
-  return mask.row(row)[column] >= kUsed;
 }
 
 GreyImage mask_of_image(const ImageView& image, const ImageView& mask) {

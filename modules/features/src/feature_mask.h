@@ -2,6 +2,7 @@
 
 #include "oneac/base/image.h"
 #include "oneac/features/feature_options.h"
+#include "oneac/features/image_mask.h"
 
 #include <Eigen/Core>
 
@@ -48,8 +49,6 @@ class FeatureMask {
 /// The mask of one image; all of it is used where `mask` is empty.
 /// @throws std::invalid_argument for another size than the image's
 [[nodiscard]] GreyImage mask_of_image(const ImageView& image, const ImageView& mask);
-/// Whether the mask of an image uses a place [px]; all of them where it is empty.
-[[nodiscard]] bool usable_in(const GreyImage& mask, const Eigen::Vector2d& u);
 
 /// Dark where either is; an empty picture is dark nowhere. @pre the same size
 [[nodiscard]] GreyImage darker(GreyImage a, const GreyImage& b);

@@ -50,7 +50,7 @@ AffineFeatures SiftPairs::detect(const ImageView& image, const ImageView& mask) 
   std::vector<std::size_t> kept;
   for (std::size_t i = 0; i < all.frames.size(); ++i) {
     const Eigen::Vector2d& u = all.frames[i].centre;
-    if (masks_->usable(u) && internal::usable_in(of_image, u)) kept.push_back(i);
+    if (masks_->usable(u) && usable_in(of_image, u)) kept.push_back(i);
   }
   AffineFeatures features;
   features.descriptors.resize(static_cast<Eigen::Index>(kept.size()), 128);

@@ -1,10 +1,10 @@
 #include "stereo_depths.h"
 
+#include "oneac/features/image_mask.h"
 #include "oneac/features/stereo_matching.h"
 
 #include <algorithm>
 #include <cmath>
-#include <cstdint>
 #include <vector>
 
 namespace oneac {
@@ -18,16 +18,6 @@ constexpr double kLeastDisparity = 3.0;
 // images of published drives depths at the picture's border are wrong by half a pixel.
 constexpr double kRectification = 0.3;
 
-/// Whether the mask leaves out where the right image shows a point of the left one.
-bool is_masked(const GreyImage& mask, const Eigen::Vector2d& left, double disparity_px) {
-  constexpr std::uint8_t kUsed = 128;  // and brighter
-  if (mask.empty()) return false;
-  const auto u = static_cast<int>(std::lround(left.x() - disparity_px));
-  const auto v = static_cast<int>(std::lround(left.y()));
-  const bool inside = u >= 0 && v >= 0 && u < mask.width() && v < mask.height();
-  return !inside || mask.row(v)[u] < kUsed;
-}
-
 }  // namespace
 
 TrackedPair with_stereo_depths(TrackedPair pair, const CameraFrame& frame) {
@@ -39,7 +29,8 @@ TrackedPair with_stereo_depths(TrackedPair pair, const CameraFrame& frame) {
   const auto found = match_along_rows(frame.image.view(), frame.right.view(), points);
   for (std::size_t k = 0; k < found.size(); ++k) {
     if (!found[k] || found[k]->px < kLeastDisparity) continue;
-    if (is_masked(frame.right_mask, points[k], found[k]->px)) continue;
+    const Eigen::Vector2d right(points[k].x() - found[k]->px, points[k].y());
+    if (!usable_in(frame.right_mask, right)) continue;
     pair.correspondences[k * stride].depth =
         MeasuredDepth{frame.camera.fx * frame.baseline_m / found[k]->px,
                       std::hypot(found[k]->sigma_px, kRectification) / found[k]->px};
