@@ -36,6 +36,14 @@ Eigen::Matrix3d level_mount() {
   return level;
 }
 
+/// The same as two views see it.
+TwoView seen_ahead(double pitch_up) {
+  TwoView seen;
+  seen.status = StepStatus::kOk;
+  seen.pose = ahead(pitch_up).pose;
+  return seen;
+}
+
 TEST(Attitude, IsLevelBeforeTheFirstFrame) {
   const Attitude attitude(given(8.0));
   EXPECT_EQ(attitude.mounting().tilt.pitch_up, 0.0);
@@ -69,10 +77,7 @@ TEST(Attitude, DoubtsTheRollOfALogThatSaysNothingOfItsMount) {
 TEST(Attitude, IsLevelledByTheFirstWayBeforeItsLengthIsAsked) {
   Attitude attitude({});
   attitude.start(level_mount());
-  TwoView seen;
-  seen.status = StepStatus::kOk;
-  seen.pose = ahead(7.0 * kDegree).pose;
-  attitude.see(seen);
+  attitude.see(seen_ahead(7.0 * kDegree));
   const Eigen::Vector3d down = attitude.now().R_level_cam.row(1);
   EXPECT_NEAR(tilt_from_down(down).pitch_up, 7.0 * kDegree, 0.5 * kDegree);
   EXPECT_LT(attitude.now().pitch_sigma, 0.6 * kDegree);
@@ -81,10 +86,7 @@ TEST(Attitude, IsLevelledByTheFirstWayBeforeItsLengthIsAsked) {
 TEST(Attitude, DoesNotGiveUpAMountThatWasStatedForOneWay) {
   Attitude attitude(given(7.8));
   attitude.start(level_mount());
-  TwoView seen;
-  seen.status = StepStatus::kOk;
-  seen.pose = ahead(2.0 * kDegree).pose;
-  attitude.see(seen);
+  attitude.see(seen_ahead(2.0 * kDegree));
   const Eigen::Vector3d down = attitude.now().R_level_cam.row(1);
   const double off = std::abs(tilt_from_down(down).pitch_up - 7.8 * kDegree);
   EXPECT_LT(off, 2.0 * attitude.now().pitch_sigma) << "if the mount is right";
@@ -94,10 +96,7 @@ TEST(Attitude, DoesNotGiveUpAMountThatWasStatedForOneWay) {
 TEST(Attitude, CountsTheFirstWayOnce) {
   Attitude attitude({});
   attitude.start(level_mount());
-  TwoView seen;
-  seen.status = StepStatus::kOk;
-  seen.pose = ahead(7.0 * kDegree).pose;
-  attitude.see(seen);
+  attitude.see(seen_ahead(7.0 * kDegree));
   const double before = attitude.now().pitch_sigma;
   attitude.follow(ahead(7.0 * kDegree));
   EXPECT_GE(attitude.now().pitch_sigma, before);

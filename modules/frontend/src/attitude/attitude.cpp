@@ -16,11 +16,8 @@ namespace {
 constexpr double kLevelVehicle = 1.0 * kDegree;
 
 /// [rad] 1σ of the elevation of a step's direction, as the images know it; 0: not known.
-double elevation_sigma(const StepResult& step, const Eigen::Vector3d& down) {
-  const double length2 = step.pose.t.squaredNorm();
-  if (!(length2 > 0.0)) return 0.0;
-  const Eigen::Matrix3d covariance = step.covariance.bottomRightCorner<3, 3>() / length2;
-  return std::sqrt(std::max(down.dot(covariance * down), 0.0));
+double elevation_sigma(const std::optional<TiltStep::Travel>& travel, const Eigen::Vector3d& down) {
+  return travel ? std::sqrt(std::max(down.dot(travel->covariance * down), 0.0)) : 0.0;
 }
 
 }  // namespace
@@ -92,10 +89,11 @@ void Attitude::follow(const StepResult& step) {
     return;
   }
   TiltStep moved = tilt_step(step);
+  const std::optional<TiltStep::Travel> travel = moved.travel;
   if (known) moved.travel.reset();
   road_->add_step(moved, mounting_->belief());
   if (step.status == StepStatus::kOk) {
-    mounting_->add_step(step.pose, elevation_sigma(step, now().R_level_cam.row(1).transpose()));
+    mounting_->add_step(step.pose, elevation_sigma(travel, now().R_level_cam.row(1).transpose()));
   }
 }
 

@@ -65,9 +65,8 @@ TiltEstimator::TiltEstimator(const Tilt& given, const TiltOptions& options, bool
   update();
 }
 
-void TiltEstimator::set_given(const Tilt& given, bool told) {
+void TiltEstimator::set_given(const Tilt& given) {
   given_ = given;
-  told_ = told;
   update();
 }
 

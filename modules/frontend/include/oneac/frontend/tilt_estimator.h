@@ -27,7 +27,7 @@ class TiltEstimator {
   TiltEstimator(const Tilt& given, const TiltOptions& options, bool told = true);
 
   /// Replaces what is given, e.g. by a longer mean of the accelerometer.
-  void set_given(const Tilt& given, bool told = true);
+  void set_given(const Tilt& given);
   /// Learns from a motion of the (tilted) camera. Steps that are not mainly forward say nothing
   /// about pitch, nor do those whose direction the images hardly know: before far scenery it
   /// follows what little else moves, all the same way.
