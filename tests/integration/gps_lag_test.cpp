@@ -1,6 +1,7 @@
 #include "run/gps_lag.h"
 
 #include "terminal/progress_bar.h"
+#include "turning_vehicle.h"
 
 #include <gtest/gtest.h>
 
@@ -18,12 +19,7 @@ double heading(double t) {
 }
 
 Trajectory vehicle() {
-  Trajectory trajectory;
-  for (int i = 0; i < 300; ++i) {
-    trajectory.times.push_back(kStart + 0.1 * i);
-    trajectory.poses.emplace_back(Eigen::AngleAxisd(heading(0.1 * i), Eigen::Vector3d::UnitZ()));
-  }
-  return trajectory;
+  return turning_vehicle(kStart, heading);
 }
 
 VehicleReference gps(double lag, bool bend = true) {

@@ -1,5 +1,7 @@
 #include "run/gyroscope_check.h"
 
+#include "turning_vehicle.h"
+
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -15,12 +17,7 @@ double heading(double t) {
 }
 
 Trajectory vehicle() {
-  Trajectory trajectory;
-  for (int i = 0; i < 300; ++i) {
-    trajectory.times.push_back(kStart + 0.1 * i);
-    trajectory.poses.emplace_back(Eigen::AngleAxisd(heading(0.1 * i), Eigen::Vector3d::UnitZ()));
-  }
-  return trajectory;
+  return turning_vehicle(kStart, heading);
 }
 
 /// @param axis  of the sensor that points up, so many times as fast as it should say

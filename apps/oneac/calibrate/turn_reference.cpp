@@ -1,9 +1,9 @@
 #include "calibrate/turn_reference.h"
 
+#include "run/vehicle_turns.h"
+
 #include "oneac/calibration/focal_evidence.h"
 #include "oneac/calibration/turn_spans.h"
-
-#include <Eigen/Geometry>
 
 #include <cstddef>
 
@@ -16,25 +16,10 @@ std::vector<TurnSpan> spans_of(const DriveRecord& drive, Heading& sensor, TurnSp
   for (std::size_t i = 0; i < vehicle.poses.size() && i < drive.frames.size(); ++i) {
     const auto& step = drive.frames[i].step;
     const bool carried = step && step->status != StepStatus::kPredicted;
-    double turn = 0.0;
-    if (i > 0) {
-      const Eigen::Matrix3d R =
-          vehicle.poses[i - 1].linear().transpose() * vehicle.poses[i].linear();
-      const Eigen::AngleAxisd turned(R);
-      turn = turned.angle() * turned.axis().z();
-    }
-    cutter.add_frame(vehicle.times[i], turn, carried);
+    cutter.add_frame(vehicle.times[i], turn_about_upright(vehicle, i), carried);
   }
   static_cast<void>(cutter.cut(sensor));
   return cutter.spans();
-}
-
-GyroscopeHeading heading_by_gyroscope(const std::vector<ImuSample>& samples) {
-  GyroscopeHeading heading;
-  for (const ImuSample& sample : samples) {
-    if (sample.angular_rate) heading.add(sample.time_s, sample.angular_rate->z());
-  }
-  return heading;
 }
 
 CourseHeading heading_by_course(const std::vector<GpsFix>& fixes) {

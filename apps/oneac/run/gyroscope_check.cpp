@@ -1,11 +1,11 @@
 #include "gyroscope_check.h"
 
+#include "vehicle_turns.h"
+
 #include "oneac/base/number_text.h"
-#include "oneac/calibration/turn_spans.h"
 #include "oneac/geometry/angles.h"
 
 #include <Eigen/Core>
-#include <Eigen/Geometry>
 
 #include <array>
 #include <cmath>
@@ -29,32 +29,16 @@ Heading heading_by_images(const Trajectory& vehicle, const std::vector<bool>& ca
   constexpr double kLongestGap_s = 1.0;
   Heading heading(kLongestGap_s);
   for (std::size_t i = 0; i < vehicle.poses.size(); ++i) {
-    double turn = 0.0;
-    if (i > 0) {
-      const Eigen::AngleAxisd turned(
-          Eigen::Matrix3d(vehicle.poses[i - 1].linear().transpose() * vehicle.poses[i].linear()));
-      turn = turned.angle() * turned.axis().z();
-    }
-    heading.turn_by(vehicle.times[i], turn, i > 0 && carried[i]);
+    heading.turn_by(vehicle.times[i], turn_about_upright(vehicle, i), i > 0 && carried[i]);
   }
   return heading;
-}
-
-std::array<GyroscopeHeading, 3> headings_by_axes(const std::vector<ImuSample>& imu) {
-  std::array<GyroscopeHeading, 3> axes;
-  for (const ImuSample& sample : imu) {
-    if (!sample.angular_rate) continue;
-    for (int i = 0; i < 3; ++i) {
-      axes[static_cast<std::size_t>(i)].add(sample.time_s, (*sample.angular_rate)[i]);
-    }
-  }
-  return axes;
 }
 
 std::vector<Turns> turns_in_windows(const Trajectory& vehicle, const std::vector<bool>& carried,
                                     const std::vector<ImuSample>& imu) {
   const Heading images = heading_by_images(vehicle, carried);
-  std::array<GyroscopeHeading, 3> axes = headings_by_axes(imu);
+  std::array<GyroscopeHeading, 3> axes{heading_by_gyroscope(imu, 0), heading_by_gyroscope(imu, 1),
+                                       heading_by_gyroscope(imu, 2)};
   std::vector<Turns> turns;
   if (vehicle.times.empty() || axes.front().heading().empty()) return turns;
   // From image to image: stamps may jump by years.
