@@ -453,18 +453,25 @@ def judge(pairs, poses):
     return count
 
 
-def report(name, oneac, log, poses, out):
+def share_within_2(count):
+    return 100 * count['within_2'] / count['metric'] if count['metric'] else 100
+
+
+def run(oneac, log, poses, out, *flags):
+    """The counts of a run, or None, and what there is to say of it."""
     shutil.rmtree(out, ignore_errors=True)
-    code, said = call(oneac, 'run', log, '-o', out, '--no-progress')
+    code, said = call(oneac, 'run', log, '-o', out, '--no-progress', *flags)
     pairs = out / 'relative_poses.csv'
     if not pairs.exists():
-        print(f'{name:20} exit {code}: {said}', flush=True)
-        return
+        return None, f'exit {code}: {said}'
     c = judge(pairs, poses)
-    share = 100 * c['within_2'] / c['metric'] if c['metric'] else 100
-    print(f"{name:20} metric {c['metric']} of {c['pairs']}, {c['way']:.1f} of {c['true_way']:.1f} m, "
-          f"wrong {c['wrong']}, within 2 sigma {share:.0f} %, beyond 5 sigma {c['beyond_5']}"
-          + (f'; {said}' if said else ''), flush=True)
+    return c, (f"metric {c['metric']} of {c['pairs']}, {c['way']:.1f} of {c['true_way']:.1f} m, "
+               f"wrong {c['wrong']}, within 2 sigma {share_within_2(c):.0f} %, "
+               f"beyond 5 sigma {c['beyond_5']}" + (f'; {said}' if said else ''))
+
+
+def report(name, oneac, log, poses, out):
+    print(f'{name:20} {run(oneac, log, poses, out)[1]}', flush=True)
 
 
 def main():

@@ -11,9 +11,8 @@ drives are kept in FOLDER and used again. Needs python3-numpy.
 import argparse
 import pathlib
 import random
-import shutil
 
-from nasty_drives import call, judge
+from nasty_drives import call, run, share_within_2
 
 
 def some(r, share, *flags):
@@ -82,13 +81,10 @@ def run_flags(flags):
     return ['--set', 'front_end.camera_height=' + flags[flags.index('--camera-height') + 1]]
 
 
-def report(number, flags, count, said):
-    share = 100 * count['within_2'] / count['metric'] if count['metric'] else 100
-    mark = '***' if count['beyond_5'] else '**' if share < 85 else ''
-    print(f"{number:4} {mark:3} metric {count['metric']} of {count['pairs']}, "
-          f"{count['way']:.1f} of {count['true_way']:.1f} m, wrong {count['wrong']}, "
-          f"within 2 sigma {share:.0f} %, beyond 5 sigma {count['beyond_5']} | "
-          f"{' '.join(flags)} | {said}", flush=True)
+def mark(count):
+    if count is None:
+        return ''
+    return '***' if count['beyond_5'] else '**' if share_within_2(count) < 85 else ''
 
 
 def main():
@@ -105,19 +101,13 @@ def main():
         drive, out = asked.folder / str(number), asked.folder / f'{number}-run'
         if not (drive / 'poses.txt').exists():
             call(asked.oneac, 'simulate', '-o', drive, '--no-progress', *flags)
-        shutil.rmtree(out, ignore_errors=True)
-        code, said = call(asked.oneac, 'run', drive / 'simulated.rawlog', '-o', out,
-                          '--no-progress', *run_flags(flags))
-        if not (out / 'relative_poses.csv').exists():
-            print(f'{number:4} exit {code}: {said} | {" ".join(flags)}', flush=True)
-            continue
-        count = judge(out / 'relative_poses.csv', drive / 'poses.txt')
-        report(number, flags, count, said)
-        for key in total:
+        count, text = run(asked.oneac, drive / 'simulated.rawlog', drive / 'poses.txt', out,
+                          *run_flags(flags))
+        print(f"{number:4} {mark(count):3} {' '.join(flags)} | {text}", flush=True)
+        for key in total if count else ():
             total[key] += count[key]
-    share = 100 * total['within_2'] / max(total['metric'], 1)
     print(f"all: metric {total['metric']} of {total['pairs']}, wrong {total['wrong']}, "
-          f"within 2 sigma {share:.1f} %, beyond 5 sigma {total['beyond_5']}")
+          f"within 2 sigma {share_within_2(total):.1f} %, beyond 5 sigma {total['beyond_5']}")
 
 
 if __name__ == '__main__':
