@@ -21,6 +21,7 @@
 #include <deque>
 #include <optional>
 #include <string>
+#include <utility>
 
 namespace oneac {
 namespace {
@@ -28,6 +29,18 @@ namespace {
 // Relative change of the cost that ends the search: of a cost near 300 it is 3e-4, a fiftieth of a
 // standard deviation of the pose.
 constexpr double kFunctionTolerance = 1e-6;
+
+/// Of every correspondence: its own, where it is known, beside what no model of a camera explains.
+std::vector<CorrespondenceNoise> noise_of(std::size_t count, const std::vector<double>& sigmas,
+                                          double focal_px, const RefineOptions& options) {
+  std::vector<CorrespondenceNoise> noise(count,
+                                         {options.point_noise_px / focal_px, options.affine_noise});
+  for (std::size_t i = 0; i < sigmas.size(); ++i) {
+    if (!(sigmas[i] > 0.0)) continue;
+    noise[i].point = std::hypot(sigmas[i], options.model_noise_px / focal_px);
+  }
+  return noise;
+}
 
 /// Why the pair cannot be refined; empty when it can.
 std::optional<RefineStatus> refusal(const std::vector<AffineCorrespondence>& acs,
@@ -44,11 +57,12 @@ std::optional<RefineStatus> refusal(const std::vector<AffineCorrespondence>& acs
 
 std::vector<bool> affine_consistent(const std::vector<AffineCorrespondence>& acs,
                                     const std::vector<bool>& inliers, const RelativePose& pose,
-                                    const CorrespondenceNoise& noise, double gate_sigmas) {
+                                    const std::vector<CorrespondenceNoise>& noise,
+                                    double gate_sigmas) {
   const Eigen::Matrix3d E = essential_matrix(pose);
   std::vector<bool> consistent(acs.size(), false);
   for (std::size_t i = 0; i < acs.size(); ++i) {
-    consistent[i] = inliers[i] && affine_term(E, acs[i], noise).r.norm() <= gate_sigmas;
+    consistent[i] = inliers[i] && affine_term(E, acs[i], noise[i]).r.norm() <= gate_sigmas;
   }
   return consistent;
 }
@@ -65,8 +79,8 @@ bool are_finite_at(const RelativePose& pose, const TwoViewTerms& terms) {
   const Eigen::Matrix3d E = essential_matrix(pose);
   for (std::size_t i = 0; i < terms.acs.size(); ++i) {
     const AffineCorrespondence& ac = terms.acs[i];
-    if (terms.with_point[i] && !is_finite(point_term(E, ac, terms.noise))) return false;
-    if (terms.with_affine[i] && !is_finite(affine_term(E, ac, terms.noise))) return false;
+    if (terms.with_point[i] && !is_finite(point_term(E, ac, terms.noise[i]))) return false;
+    if (terms.with_affine[i] && !is_finite(affine_term(E, ac, terms.noise[i]))) return false;
   }
   return true;
 }
@@ -117,8 +131,8 @@ class TwoViewProblem {
     problem_.AddParameterBlock(rotation_.coeffs().data(), 4, &rotation_manifold_);
     problem_.AddParameterBlock(direction_.data(), 3, &sphere_);
     for (std::size_t i = 0; i < terms.acs.size(); ++i) {
-      if (terms.with_point[i]) add(&points_.emplace_back(terms.acs[i], terms.noise));
-      if (terms.with_affine[i]) add(&affinities_.emplace_back(terms.acs[i], terms.noise));
+      if (terms.with_point[i]) add(&points_.emplace_back(terms.acs[i], terms.noise[i]));
+      if (terms.with_affine[i]) add(&affinities_.emplace_back(terms.acs[i], terms.noise[i]));
     }
     if (prior.sigma > 0.0) problem_.AddResidualBlock(&expected_, nullptr, direction_.data());
   }
@@ -207,12 +221,14 @@ void RefineOptions::validate() const {
 RefineResult refine_two_view(const std::vector<AffineCorrespondence>& acs,
                              const std::vector<bool>& inliers, const RelativePose& start,
                              double focal_px, const RefineOptions& options,
-                             const DirectionPrior& prior) {
+                             const DirectionPrior& prior, const std::vector<double>& point_sigmas) {
   options.validate();
   require(focal_px > 0.0 && std::isfinite(focal_px), "refine.focal_px", focal_px,
           "positive and finite");
   require(inliers.size() == acs.size(), "refine.inliers", static_cast<double>(inliers.size()),
           "one per correspondence");
+  require(point_sigmas.empty() || point_sigmas.size() == acs.size(), "refine.point_sigmas",
+          static_cast<double>(point_sigmas.size()), "one per correspondence, or none");
   RefineResult result;
   result.affine_consistent.assign(acs.size(), false);
   if (start.is_finite()) result.pose = start;
@@ -223,7 +239,7 @@ RefineResult refine_two_view(const std::vector<AffineCorrespondence>& acs,
   }
   const double length = start.t.norm();
   const RelativePose unit{start.R, start.t / length};
-  const CorrespondenceNoise noise{options.point_noise_px / focal_px, options.affine_noise};
+  std::vector<CorrespondenceNoise> noise = noise_of(acs.size(), point_sigmas, focal_px, options);
   result.affine_consistent =
       affine_consistent(acs, inliers, unit, noise, options.affine_gate_sigmas);
   result.affine_count = count_true(result.affine_consistent);
@@ -231,7 +247,7 @@ RefineResult refine_two_view(const std::vector<AffineCorrespondence>& acs,
 
   const std::vector<bool> none(acs.size(), false);
   const TwoViewTerms terms{acs, inliers, result.affine_used ? result.affine_consistent : none,
-                           noise, options.loss_sigmas};
+                           std::move(noise), options.loss_sigmas};
   if (!are_finite_at(unit, terms)) {
     result.status = RefineStatus::kNotFinite;
     return result;

@@ -13,7 +13,7 @@ struct TwoViewTerms {
   const std::vector<AffineCorrespondence>& acs;
   const std::vector<bool>& with_point;   ///< these contribute a point term
   const std::vector<bool>& with_affine;  ///< these contribute an affine term
-  CorrespondenceNoise noise;
+  std::vector<CorrespondenceNoise> noise;  ///< one per correspondence
   double loss_sigmas;
 };
 

@@ -117,7 +117,7 @@ TEST(RefineOptions, DescribesEachOptionOnce) {
   describe(Names{&seen}, options);
   EXPECT_EQ(seen, (std::multiset<std::string>{"point_noise_px", "affine_noise", "loss_sigmas",
                                               "affine_terms_below", "affine_gate_sigmas",
-                                              "max_iterations", "min_inliers"}));
+                                              "max_iterations", "min_inliers", "model_noise_px"}));
 }
 
 TEST(RefineTwoView, ThrowsOnMisuse) {

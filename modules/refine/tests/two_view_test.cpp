@@ -197,6 +197,52 @@ TEST(RefineTwoView, ADirectionThatIsExpectedCountsAsItsSigmaSays) {
   EXPECT_GT(off(10.0), 4.0 * kDegree) << "the images know better";
 }
 
+/// A street whose first twenty points are sharp and the others blurred, with the 1σ of all [-].
+struct SharpAndBlurred {
+  test::TwoViewScene scene;
+  std::vector<double> sigmas;
+};
+
+SharpAndBlurred sharp_and_blurred(SceneGenerator& generator) {
+  constexpr double kSharp_px = 0.05, kBlurred_px = 0.8;
+  SharpAndBlurred both;
+  both.scene = test::street(generator, 200, {});
+  for (std::size_t i = 0; i < both.scene.acs.size(); ++i) {
+    const double px = i < 20 ? kSharp_px : kBlurred_px;
+    both.scene.acs[i] = test::disturbed(generator, both.scene.acs[i], {px, 0.05});
+    both.sigmas.push_back(px / kFocal);
+  }
+  return both;
+}
+
+TEST(RefineTwoView, PointsThatTellTheirNoiseCountByIt) {
+  SceneGenerator generator(41);
+  double alike = 0.0, weighed = 0.0;
+  for (int trial = 0; trial < 40; ++trial) {
+    const auto [scene, sigmas] = sharp_and_blurred(generator);
+    const std::vector<bool> all(scene.acs.size(), true);
+    const auto error = [&](const std::vector<double>& of_points) {
+      const RefineResult result =
+          refine_two_view(scene.acs, all, scene.truth, kFocal, points_alone(), {}, of_points);
+      return direction_error(result.pose.t, scene.truth.t);
+    };
+    alike += error({});
+    weighed += error(sigmas);
+  }
+  EXPECT_LT(weighed, 0.5 * alike);
+}
+
+TEST(RefineTwoView, APointWhoseNoiseIsUnknownCountsAsUsual) {
+  SceneGenerator generator(42);
+  const auto scene = test::street(generator, 60, {0.2, 0.05});
+  const std::vector<bool> all(scene.acs.size(), true);
+  const std::vector<double> unknown(scene.acs.size(), 0.0);
+  const RefineResult told = refine_two_view(scene.acs, all, scene.truth, kFocal, {}, {}, unknown);
+  test::expect_same_pose(told.pose, refine(scene, scene.truth).pose);
+  EXPECT_THROW((void)refine_two_view(scene.acs, all, scene.truth, kFocal, {}, {}, {0.001}),
+               std::invalid_argument);
+}
+
 TEST(RefineTwoView, GivesTheSameBitsEachTime) {
   SceneGenerator generator(21);
   const auto scene = test::street(generator, 45, {0.3, 0.05});

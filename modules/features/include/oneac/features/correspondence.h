@@ -51,4 +51,15 @@ struct TrackedPair {
   return {pair.correspondences.begin(), pair.correspondences.end()};
 }
 
+/// 1σ of a coordinate of each correspondence [image unit], 0 where unknown; empty where all are.
+[[nodiscard]] inline std::vector<double> point_sigmas(const TrackedPair& pair) {
+  std::vector<double> sigmas;
+  bool known = false;
+  for (const Correspondence& ac : pair.correspondences) {
+    sigmas.push_back(ac.point_sigma);
+    known = known || ac.point_sigma > 0.0;
+  }
+  return known ? sigmas : std::vector<double>{};
+}
+
 }  // namespace oneac

@@ -17,6 +17,8 @@ struct RefineOptions {
   double point_noise_px = 0.2;  ///< [px] 1σ of the Sampson distance of inliers: 0.16 … 0.22
   double affine_noise = 0.05;   ///< [-] 1σ of an entry of A: 0.03 … 0.08
   double loss_sigmas = 1.0;  ///< [σ] scale of the Cauchy loss: the residuals' tails are that long
+  double model_noise_px =
+      0.05;  ///< [px] 1σ beside a point's own: lens, shutter, what the best tracks leave
   int affine_terms_below =
       50;  ///< [inliers] with more, affinities add nothing but time; 0: points alone
   double affine_gate_sigmas =
@@ -37,6 +39,8 @@ void describe(Visitor&& visit, RefineOptions& o) {
         Bound::positive_and_finite());
   visit("loss_sigmas", o.loss_sigmas, "sigma", "scale of the robust (Cauchy) loss",
         Bound::positive_and_finite());
+  visit("model_noise_px", o.model_noise_px, "px",
+        "1 sigma beside a point's own noise: lens, shutter", Bound::positive_and_finite());
   visit("affine_terms_below", o.affine_terms_below, "inliers",
         "pairs with fewer use affinities beside points; 0: never", Bound::at_least(0));
   visit("affine_gate_sigmas", o.affine_gate_sigmas, "sigma", "affinities beyond it are left out",
@@ -99,13 +103,18 @@ struct DirectionPrior {
 /// @param start    X2 = R X1 + t; the length of t is kept, whether metric or one
 /// @param prior    adds ½ |t̂ − direction|² / σ² to the cost and its curvature to the information
 /// @param focal_px turns point_noise_px into normalised units
-/// @throws std::invalid_argument on invalid options, focal_px ≤ 0 or flags of another number
+/// @param point_sigmas  1σ of a coordinate of every correspondence [normalised], zero where
+/// unknown;
+///                 empty: point_noise_px holds for all
+/// @throws std::invalid_argument on invalid options, focal_px ≤ 0, flags or sigmas of another
+/// number
 /// @cost   1 to 2 ms for 600 inliers, twice that with affinities; one thread,
 ///         deterministic, prints nothing
 [[nodiscard]] RefineResult refine_two_view(const std::vector<AffineCorrespondence>& acs,
                                            const std::vector<bool>& inliers,
                                            const RelativePose& start, double focal_px,
                                            const RefineOptions& options,
-                                           const DirectionPrior& prior = {});
+                                           const DirectionPrior& prior = {},
+                                           const std::vector<double>& point_sigmas = {});
 
 }  // namespace oneac
