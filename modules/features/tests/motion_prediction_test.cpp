@@ -77,6 +77,12 @@ TEST(StaticPoints, SeesDirtOnTheGlassWhereATenthOfTheRoadRests) {
   EXPECT_TRUE(after_drive(0.2).views_through_dirt());
 }
 
+TEST(StaticPoints, ARedLightDoesNotCleanTheGlass) {
+  StaticPoints points = after_drive(0.2);
+  for (std::size_t pair = 50; pair < 400; ++pair) points.begin_pair(pair, 0.0);
+  EXPECT_TRUE(points.views_through_dirt());
+}
+
 TEST(MotionPrediction, KnowsNothingWithoutAMotion) {
   MotionHint none = hint(true);
   none.T_2_1.reset();

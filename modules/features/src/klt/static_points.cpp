@@ -20,8 +20,18 @@ constexpr double kDirt = 0.1;
 void StaticPoints::begin_pair(std::size_t frame, double median_flow_px) {
   frame_ = frame;
   median_flow_px_ = median_flow_px;
-  had_to_move_ *= kMemory;
-  rested_ *= kMemory;
+  counts_ = false;
+}
+
+void StaticPoints::count(bool at_rest) {
+  // A pair in which nothing had to move, as at a light, does not clean the glass.
+  if (!counts_) {
+    had_to_move_ *= kMemory;
+    rested_ *= kMemory;
+  }
+  counts_ = true;
+  had_to_move_ += 1.0;
+  rested_ += at_rest ? 1.0 : 0.0;
 }
 
 bool StaticPoints::views_through_dirt() const {
@@ -34,10 +44,7 @@ bool StaticPoints::rests(KltTrack& track, const Eigen::Vector2d& flow,
   auto warp = expected.on_road(track.u);
   if (!warp) warp = expected.far_away(track.u);
   const bool by_motion = warp && (warp->centre - track.u).norm() > kMustMove;
-  if (by_motion) {
-    had_to_move_ += 1.0;
-    rested_ += at_rest ? 1.0 : 0.0;
-  }
+  if (by_motion) count(at_rest);
   const bool must_move = by_place || by_motion;
   const bool others_move = !expected.is_metric() && median_flow_px_ > kMustMove;
   track.like_the_car = at_rest && (by_place || track.like_the_car);

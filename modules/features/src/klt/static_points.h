@@ -35,9 +35,13 @@ class StaticPoints {
   void clear() { blocked_until_.clear(); }
 
  private:
+  /// A point more that had to move in this pair.
+  void count(bool at_rest);
+
   int frames_;
   std::size_t frame_ = 0;
   double median_flow_px_ = 0.0;
+  bool counts_ = false;                      ///< something had to move in this pair
   double had_to_move_ = 0.0, rested_ = 0.0;  ///< [points] lately, by the motion expected
   std::unordered_map<std::size_t, std::size_t> blocked_until_;
 };
