@@ -4,6 +4,7 @@
 
 #include "oneac/geometry/angles.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace oneac {
@@ -29,8 +30,10 @@ std::optional<LengthMeasurement> RoadLength::measure(AcSpan acs, const std::vect
                                                      const Levelling& first,
                                                      double focal_px) const {
   if (!(camera_height_ > 0.0)) return std::nullopt;
-  const auto road = ground_scale(acs, inliers, T_2_1, first.R_level_cam, point_sigma_px_ / focal_px,
-                                 widened(options_, first));
+  GroundScaleOptions options = widened(options_, first);
+  options.max_side = std::min(options.max_side, kStrip_m / camera_height_);
+  const auto road =
+      ground_scale(acs, inliers, T_2_1, first.R_level_cam, point_sigma_px_ / focal_px, options);
   if (!road) return std::nullopt;
   const double heights = road->baseline / T_2_1.t.norm();
   if (!is_wide_enough(heights * room_beside(acs, inliers, T_2_1))) return std::nullopt;

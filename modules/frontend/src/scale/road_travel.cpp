@@ -102,8 +102,10 @@ std::optional<MeasuredTravel> road_travel(const RoadPair& road, const TwoView& s
   step.roll_sigma = std::max(prior.first.roll_sigma, step.roll_sigma);
   expect(prior, height, directed, step);
   if (!lies_in_the_road(step, direction_sigma)) return std::nullopt;
+  RoadAlignmentOptions options;
+  options.half_width = std::min(options.half_width, kStrip_m / height);
   const RoadAlignment aligned =
-      align_road(road.first, road.second, road.camera, step, road.mask, {}, road.workers);
+      align_road(road.first, road.second, road.camera, step, road.mask, options, road.workers);
   if (aligned.status != RoadStatus::kMeasured) return std::nullopt;
   const double sigma = std::max(aligned.sigma, kLeastSigma);
   const double reach = kBeyond * sigma;  // the fit may leave what was searched

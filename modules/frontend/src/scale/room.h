@@ -7,6 +7,10 @@
 
 namespace oneac {
 
+/// [m] to either side of the camera that are looked at for road: a lane and as much again. Beyond
+/// them stand parked cars, kerbs and footways, whose feet pass for a road of another height.
+constexpr double kStrip_m = 3.3;
+
 /// How far what is seen lies from the line of travel, but for the nearest tenth of it, in the unit
 /// of T_2_1.t; infinite where nothing has a depth.
 /// @param acs      normalised
