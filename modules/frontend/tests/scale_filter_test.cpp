@@ -80,6 +80,18 @@ TEST(ScaleFilter, KeepsTheMapsScaleAgainstASingleOutlier) {
   EXPECT_NEAR(filter.correct(1.02, 0.03), 1.0, 0.02);
 }
 
+TEST(ScaleFilter, BelievesLessOfAMeasurementThatSurprises) {
+  const auto factor = [](double ratio) {
+    ScaleFilter filter{ScaleOptions{}};
+    static_cast<void>(filter.correct(1.0, 0.03));
+    static_cast<void>(filter.drift(20.0, 0.0));  // the road there has its own error
+    return std::log(filter.correct(ratio, 0.03));
+  };
+  EXPECT_GT(factor(1.05), 0.0);
+  EXPECT_LT(factor(1.2), 2.5 * factor(1.05)) << "nearly four times the innovation";
+  EXPECT_GT(factor(1.2), 0.0);
+}
+
 /// Factor after five measurements that the filter does not believe, so many metres apart.
 double factor_after_contradictions(double apart) {
   ScaleFilter filter{ScaleOptions{}};

@@ -1,5 +1,6 @@
 #include "oneac/frontend/scale_filter.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -76,7 +77,19 @@ double ScaleFilter::correct(double ratio, double sigma) {
     return start(ratio, noise);
   }
   refused_ = 0;
-  return update(innovation, noise);
+  return update(innovation, noise * surprise(innovation, noise));
+}
+
+/// How many times the noise of a measurement that surprises counts: its tails are those of traffic
+/// and kerbs, longer than Gauss's, so that the farther off it is, the less of it is believed.
+double ScaleFilter::surprise(double innovation, double noise) const {
+  constexpr double kUsual = 2.0;  // [σ]
+  const double total = variance_of_innovation(noise);
+  return std::max(1.0, innovation * innovation / (kUsual * kUsual * total));
+}
+
+double ScaleFilter::variance_of_innovation(double noise) const {
+  return (variance_ + covariance_) + (error_variance_ + covariance_) + noise;
 }
 
 double ScaleFilter::correct_by_wheels(double log_ratio, double sigma) {
@@ -96,8 +109,7 @@ double ScaleFilter::correct_by_wheels(double log_ratio, double sigma) {
 }
 
 bool ScaleFilter::is_likely(double innovation, double noise) const {
-  const double total = (variance_ + covariance_) + (error_variance_ + covariance_) + noise;
-  return std::abs(innovation) <= options_.outlier_sigmas * std::sqrt(total);
+  return std::abs(innovation) <= options_.outlier_sigmas * std::sqrt(variance_of_innovation(noise));
 }
 
 double ScaleFilter::update(double innovation, double noise) {

@@ -52,6 +52,8 @@ class ScaleFilter {
   double update(double innovation, double noise);
   double correct_by_wheels(double log_ratio, double sigma);
   [[nodiscard]] bool is_likely(double innovation, double noise) const;
+  [[nodiscard]] double surprise(double innovation, double noise) const;
+  [[nodiscard]] double variance_of_innovation(double noise) const;
 
   ScaleOptions options_;
   bool by_wheels_;
