@@ -402,6 +402,49 @@ TEST(Scale, RoadAndMapThatDisagreeRefuteTheMap) {
   }
 }
 
+/// Landmarks of a far scene that told each of five steps by so much; they were a metre long.
+ScaleCorrection after_five_steps(double told, Scale& scale) {
+  for (int i = 1; i <= 5; ++i) {
+    static_cast<void>(scale.length_of(step(StepStatus::kOk, 10.0 + 0.1 * i, 1.0), {carried(told)}));
+  }
+  return scale.correct({road(5.0, 5.0), {}}, {}, kFocal);
+}
+
+TEST(Scale, AMapWhoseStepsDoNotAddUpToItsWayGetsNoScale) {
+  Scale scale = driving();
+  EXPECT_TRUE(after_five_steps(0.95, scale).metric);
+  EXPECT_TRUE(scale.is_metric());
+  scale = driving();
+  const ScaleCorrection correction = after_five_steps(0.15, scale);
+  EXPECT_EQ(correction.factor, 1.0);
+  EXPECT_FALSE(correction.metric) << "the road measured the way, not what the landmarks carry";
+  EXPECT_FALSE(scale.is_metric());
+  EXPECT_TRUE(scale.map_is_refuted());
+}
+
+TEST(Scale, LooksForTheRoadOfAHighCameraInItsOwnLane) {
+  // A row of parked cars, 3.6 m to the right, their sills half a metre above a smooth road.
+  FrontEndOptions high = by("height");
+  high.camera_height = 2.6;
+  SceneGenerator random(4);
+  const RelativePose T{Eigen::Matrix3d::Identity(), {0.0, 0.0, -0.9}};
+  TwoView seen;
+  seen.status = StepStatus::kOk;
+  seen.pose = {T.R, {0.0, 0.0, -1.0}};
+  seen.focal_px = kFocal;
+  for (int i = 0; i < 60; ++i) {
+    const double z = random.uniform(7.0, 14.0);
+    const Eigen::Vector2d x1(3.6 / z, 2.1 / z);
+    const auto ac = correspondence_from_homography(
+        plane_induced_homography(T, {Eigen::Vector3d::UnitY(), 2.1}), x1);
+    ASSERT_TRUE(ac);
+    seen.pair.correspondences.emplace_back();
+    static_cast<AffineCorrespondence&>(seen.pair.correspondences.back()) = *ac;
+  }
+  seen.inliers.assign(seen.pair.size(), true);
+  EXPECT_TRUE(started(high).measure(seen, std::nullopt, {}, kAhead).empty());
+}
+
 /// A drive in metres, map and road.
 Scale mapped() {
   Scale scale = driving();
@@ -689,7 +732,7 @@ TEST(Scale, MeasuresTheMapBySpeeds) {
   }
   scale.add_speed({0.0, 10.0});
   scale.add_speed({1.0, 10.0});
-  const ScaleCorrection correction = scale.correct({road(1.0, 2.0), {}}, {}, kFocal);
+  const ScaleCorrection correction = scale.correct({road(12.0, 24.0), {}}, {}, kFocal);
   EXPECT_NEAR(correction.factor, 0.5, 1e-6);
   EXPECT_TRUE(correction.metric);
   EXPECT_EQ(correction.ground_acs, 0U);

@@ -114,6 +114,15 @@ std::optional<ScaleCorrection> Scale::begin(const StepInTime& step,
   correction.factor =
       filter_.correct(told.length / carried.length, std::hypot(told.sigma, carried.sigma));
   interval_.rescale(correction.factor);
+  carried_.rescale(correction.factor);
+  return corrected(correction);
+}
+
+ScaleCorrection Scale::without_scale(ScaleCorrection correction) {
+  filter_.lose();
+  conflicts_ = kPatience;
+  needs_road_image_ = true;
+  interval_ = {};
   return corrected(correction);
 }
 
@@ -128,10 +137,13 @@ ScaleCorrection Scale::corrected(ScaleCorrection correction) {
 StepLength Scale::length_of(const StepInTime& step,
                             const std::vector<LengthMeasurement>& measured) {
   const StepLength result = decided(step, measured);
+  bool by_map = false;
   for (const LengthMeasurement& told : measured) {
     if (told.source != LengthSource::kMap) continue;
     carried_.add(told.length, told.sigma);
+    by_map = true;
   }
+  if (!by_map) carried_.add_untold(result.length);
   speeds_.add_step(step.end_s, result.length);
   if (result.source == LengthSource::kRoad) look_ahead(measured.front().reach);
   if (result.source == LengthSource::kRoadImage && step.direct) look_ahead(step.direct->reach);
@@ -183,6 +195,15 @@ void Scale::Carried::add(double length, double relative_sigma) {
   way_ += length;
   relative_ += relative_sigma * relative_sigma;
   absolute_ += relative_sigma * relative_sigma * length * length;
+}
+
+bool Scale::Carried::adds_up_to(double way) const {
+  if (!(way_ > 0.0) || !(way > 0.0)) return true;
+  // A bend may lose a tenth, and a chord is shorter than its arc.
+  constexpr double kSame = 0.3;
+  constexpr double kSteps = 16.0;  // that share their landmarks, and what is wrong with these
+  const double off = std::log((way_ + untold_) / way);
+  return std::abs(off) <= kSame + kContradiction * std::sqrt(kSteps * variance());
 }
 
 double Scale::Carried::variance() const {
@@ -243,7 +264,9 @@ ScaleCorrection Scale::correct(const MapLengths& map, const Levelling& first, do
   ScaleCorrection correction;
   const double way = map.newest.T_2_1.t.norm();
   const double turn = Eigen::AngleAxisd(map.newest.T_2_1.R).angle();
-  correction.share = filter_.drift(way, std::exchange(carried_, {}).variance(), turn);
+  const Carried carried = std::exchange(carried_, {});
+  correction.share = filter_.drift(way, carried.variance(), turn);
+  if (!carried.adds_up_to(way)) return without_scale(correction);
   for (const ScaleMeasurement& told : measure(map, first, focal_px)) {
     correction.factor *= filter_.correct(told.ratio, told.sigma);
     if (filter_.began_anew()) correction.share = 0.0;  // what is new says nothing of the past

@@ -126,12 +126,23 @@ class Scale {
   class Carried {
    public:
     void add(double length, double relative_sigma);
+    /// A step of this length [map] that the landmarks did not tell.
+    void add_untold(double length) { untold_ += length; }
+    /// The map's lengths were multiplied.
+    void rescale(double factor) {
+      way_ *= factor;
+      untold_ *= factor;
+      absolute_ *= factor * factor;
+    }
+    /// Whether the steps add up to the way [map] between the two keyframes, as they stand in the
+    /// map. Where they do not, its landmarks and its poses are of two scales.
+    [[nodiscard]] bool adds_up_to(double way) const;
     /// Relative variance of the way: that of its steps; more of them than landmarks usually live
     /// for are those of a car that creeps, all seen by the same, and only its ends are uncertain.
     [[nodiscard]] double variance() const;
 
    private:
-    double steps_ = 0.0, way_ = 0.0, relative_ = 0.0, absolute_ = 0.0;
+    double steps_ = 0.0, way_ = 0.0, relative_ = 0.0, absolute_ = 0.0, untold_ = 0.0;
   };
 
   /// Since the last keyframe: the way as others than the map tell it.
@@ -195,6 +206,8 @@ class Scale {
                                                         const Levelling& first,
                                                         double focal_px) const;
   [[nodiscard]] std::optional<ScaleMeasurement> by_speed();
+  /// Nothing that the map says of lengths is believed, and it begins anew.
+  [[nodiscard]] ScaleCorrection without_scale(ScaleCorrection correction);
   /// A correction that the filter has taken, with how sure the map is after it.
   [[nodiscard]] ScaleCorrection corrected(ScaleCorrection correction);
 
