@@ -4,6 +4,7 @@
 #include "below_the_sky.h"
 #include "by_depths.h"
 #include "perspective_correction.h"
+#include "sense_of_travel.h"
 
 #include "oneac/base/thread_clock.h"
 #include "oneac/frontend/front_end_options.h"
@@ -116,7 +117,9 @@ TwoView TwoViewEstimator::estimate(TrackedPair pair, const TwoViewPrior& prior) 
   result.covariance = found.covariance;
   result.motion = found.motion;
   result.inliers = std::move(found.inliers);
-  if (result.status == StepStatus::kOk) result = refined(std::move(result));
+  if (result.status == StepStatus::kOk) {
+    result = in_lasting_sense(refined(std::move(result)), prior.motion.direction);
+  }
   if (result.status == StepStatus::kOk && refine_enabled_) {
     result = in_likelier_basin(std::move(result), told, prior.course, refine_, threshold_px_);
   }
