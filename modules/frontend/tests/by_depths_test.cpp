@@ -67,6 +67,24 @@ TwoView sideways() {
   return told;
 }
 
+/// Two views that know their direction to 1 mrad, ahead and by so much downwards [rad].
+TwoView sure_of(double down) {
+  TwoView told;
+  told.status = StepStatus::kOk;
+  told.pose.t = Eigen::Vector3d(0.0, down, -1.0).normalized();
+  told.covariance.setIdentity();
+  told.covariance *= 1e-6;
+  return told;
+}
+
+TEST(CreepingByDepths, LeavesTheWayToTwoViewsThatSayTheSameAndAreSurer) {
+  Street street(ahead(0.16));
+  street.with_houses().with_road();
+  EXPECT_EQ(street.by_depths(sure_of(0.01)).pose.t, sure_of(0.01).pose.t);
+  EXPECT_LT(direction_error(street.by_depths(sure_of(0.5)).pose.t, ahead(1.0).t), 0.1)
+      << "not the same";
+}
+
 TEST(CreepingByDepths, FindsTheWayAheadBehindACarThatCrosses) {
   for (const double metres : {0.02, 0.07}) {
     Street street(ahead(metres));

@@ -190,6 +190,17 @@ Matrix6 of_direction(const Matrix6& covariance, const Eigen::Vector3d& t) {
   return map * covariance * map.transpose();
 }
 
+/// Whether two views alone say the same, and are surer of the direction. Depths are those of the
+/// map, and what is wrong with it they hand on from step to step.
+bool know_better(const TwoView& seen, const MotionByDepths& motion) {
+  if (seen.status != StepStatus::kOk) return false;
+  const Eigen::Vector3d& t = motion.T_2_1.t;
+  const double alone = seen.covariance.bottomRightCorner<3, 3>().trace();
+  const double by_depths = of_direction(motion.covariance, t).bottomRightCorner<3, 3>().trace();
+  const bool same = direction_error(seen.pose.t, t) < kMoves * std::sqrt(alone + by_depths);
+  return same && alone > 0.0 && alone < by_depths;
+}
+
 }  // namespace
 
 TwoView creeping_by_depths(TwoView seen, const PointDepths& depths, const TwoViewPrior& prior,
@@ -205,6 +216,7 @@ TwoView creeping_by_depths(TwoView seen, const PointDepths& depths, const TwoVie
   if (!motion || motion->T_2_1.t.norm() > kShort) return seen;
   if (!is_of_a_car(*motion, prior.course.direction, prior.R_level_cam.row(1))) return seen;
   const bool moves = motion->T_2_1.t.norm() > std::max(kRocks, kMoves * sigma_along(*motion));
+  if (moves && know_better(seen, *motion)) return seen;
   seen.status = moves ? StepStatus::kOk : StepStatus::kNoMotion;
   seen.pose = {motion->T_2_1.R, Eigen::Vector3d::Zero()};
   seen.covariance.setZero();

@@ -4,6 +4,7 @@
 #include "below_the_sky.h"
 #include "by_depths.h"
 #include "perspective_correction.h"
+#include "plausible_depths.h"
 #include "sense_of_travel.h"
 
 #include "oneac/base/thread_clock.h"
@@ -118,6 +119,11 @@ TwoView TwoViewEstimator::estimate(TrackedPair pair, const TwoViewPrior& prior) 
   result.motion = found.motion;
   result.inliers = std::move(found.inliers);
   if (result.status == StepStatus::kOk) {
+    result = in_lasting_sense(std::move(result), prior.motion.direction);
+    result.inliers = with_plausible_depths(result.pair, result.inliers, result.pose, prior.motion,
+                                           result.focal_px);
+    result.inlier_count =
+        static_cast<std::size_t>(std::count(result.inliers.begin(), result.inliers.end(), true));
     result = in_lasting_sense(refined(std::move(result)), prior.motion.direction);
   }
   if (result.status == StepStatus::kOk && refine_enabled_) {
