@@ -77,6 +77,21 @@ TEST(StaticPoints, SeesDirtOnTheGlassWhereATenthOfTheRoadRests) {
   EXPECT_TRUE(after_drive(0.2).views_through_dirt());
 }
 
+TEST(StaticPoints, SeesDirtWhereTravelIsShownBeforeMetresAreKnown) {
+  const MotionHint h = hint(false);
+  const MotionPrediction motion(h);
+  StaticPoints points(5);
+  for (std::size_t pair = 0; pair < 50; ++pair) {
+    points.begin_pair(pair, 10.0);
+    for (int i = 0; i < 20; ++i) {
+      KltTrack track;
+      track.u = {350.0 + 10.0 * i, 420.0};
+      static_cast<void>(points.rests(track, {i < 4 ? 0.05 : 5.0, 0.0}, motion, true));
+    }
+  }
+  EXPECT_TRUE(points.views_through_dirt());
+}
+
 TEST(StaticPoints, ARedLightDoesNotCleanTheGlass) {
   StaticPoints points = after_drive(0.2);
   for (std::size_t pair = 50; pair < 400; ++pair) points.begin_pair(pair, 0.0);

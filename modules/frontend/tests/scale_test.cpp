@@ -218,6 +218,17 @@ TEST(Scale, ACarOfWhichNothingIsKnownRestsOnlyIfNearlyAllPointsDo) {
   EXPECT_FALSE(rest_of(0.93).metric) << "a bonnet";
 }
 
+TEST(Scale, ACreepThatAFewPointsSeeIsNoFirstSpeed) {
+  const auto creep_of = [](double share) {
+    StepInTime creeping = rest(MeasuredTravel{0.08, 0.01, LengthSource::kRoadImage, true});
+    creeping.resting = share;
+    Scale scale = started(by("height"));
+    return scale.length_of(creeping, {});
+  };
+  EXPECT_TRUE(creep_of(0.98).metric);
+  EXPECT_FALSE(creep_of(0.85).metric) << "edges of the blocks of a compressed picture";
+}
+
 TEST(Scale, ARestSeenThroughDirtIsNotMetric) {
   Scale scale = started(by("height"));
   StepInTime resting = rest(MeasuredTravel{0.001, 0.004, LengthSource::kRoadImage, true});
@@ -353,6 +364,13 @@ TEST(Scale, NoCarStopsFromTenMetresASecondBetweenTwoImages) {
   EXPECT_NEAR(length.length, 1.0, 1e-9);
   EXPECT_EQ(length.source, LengthSource::kHeld);
   EXPECT_FALSE(length.metric);
+}
+
+TEST(Scale, ARestTooSoonAfterMotionIsNotMetric) {
+  Scale scale = driving();
+  StepInTime next = rest(MeasuredTravel{0.001, 0.004, LengthSource::kRoadImage, true});
+  next.resting = 0.9;
+  EXPECT_FALSE(scale.length_of(next, {}).metric) << "dead pixels, a bonnet";
 }
 
 TEST(Scale, DoesNotBelieveALengthThatNeedsMoreThanTyres) {

@@ -44,8 +44,8 @@ bool StaticPoints::rests(KltTrack& track, const Eigen::Vector2d& flow,
   auto warp = expected.on_road(track.u);
   if (!warp) warp = expected.far_away(track.u);
   const bool by_motion = warp && (warp->centre - track.u).norm() > kMustMove;
-  if (by_motion) count(at_rest);
   const bool must_move = by_place || by_motion;
+  if (must_move) count(at_rest);
   const bool others_move = !expected.is_metric() && median_flow_px_ > kMustMove;
   track.like_the_car = at_rest && (by_place || track.like_the_car);
   if (!at_rest) {

@@ -42,7 +42,7 @@ class StaticPoints {
   std::size_t frame_ = 0;
   double median_flow_px_ = 0.0;
   bool counts_ = false;                      ///< something had to move in this pair
-  double had_to_move_ = 0.0, rested_ = 0.0;  ///< [points] lately, by the motion expected
+  double had_to_move_ = 0.0, rested_ = 0.0;  ///< [points] lately
   std::unordered_map<std::size_t, std::size_t> blocked_until_;
 };
 

@@ -267,10 +267,13 @@ StepLength Scale::at_rest(const StepInTime& step) const {
     const bool moves = told->length > std::max(kStillness, kMoves * told->sigma);
     if (moves && told->in_metres) {
       const StepLength direct = by_itself(step);
-      if (!expected || expected->allows(direct.length, direct.sigma_m)) return direct;
-      return held(step);
+      // A creep is seen as a rest is, by what nearly keeps its place, and asks for as much.
+      if (!expected) return few_rest ? held(step) : direct;
+      return expected->allows(direct.length, direct.sigma_m) ? direct : held(step);
     }
-    result.metric = !moves && told->sigma <= kSureRest && !may_be_the_car && !few_rest;
+    // Of a car that was too fast to be there already what rests is something else.
+    const bool too_soon = expected && !could_stand(expected);
+    result.metric = !moves && told->sigma <= kSureRest && !may_be_the_car && !few_rest && !too_soon;
     result.sigma_m = std::hypot(told->sigma, told->length);  // what it may have crept
     return result;
   }
