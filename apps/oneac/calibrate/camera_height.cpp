@@ -75,7 +75,7 @@ std::vector<Place> places_of(const DriveRecord& drive) {
     Place place{vehicle.times[i], 0.0, 0.0, false};
     if (i > 0) {
       const Eigen::Isometry3d step = vehicle.poses[i - 1].inverse() * vehicle.poses[i];
-      const auto& told = drive.frames[i].step;
+      const std::optional<StepResult> told = drive.frames[i].step;
       place.way = places.back().way + step.translation().norm();
       place.turned = places.back().turned + Eigen::AngleAxisd(step.linear()).angle();
       place.metric = told && told->metric && told->status != StepStatus::kPredicted;

@@ -23,11 +23,8 @@ struct Between {
   double share;
 };
 
-Between keyframes_around(const std::vector<Keyframe>& keyframes, std::size_t frame, double time_s) {
-  const auto next =
-      std::upper_bound(keyframes.begin(), keyframes.end(), frame,
-                       [](std::size_t i, const Keyframe& keyframe) { return i < keyframe.frame; });
-  const auto second = static_cast<std::size_t>(next - keyframes.begin());
+Between keyframes_around(const KeyframeStore& keyframes, std::size_t frame, double time_s) {
+  const std::size_t second = keyframes.first_behind(frame);
   if (second == 0) return {0, 0, 0.0};
   if (second == keyframes.size()) return {second - 1, second - 1, 0.0};
   const double begin = keyframes[second - 1].time_s, end = keyframes[second].time_s;
@@ -39,7 +36,8 @@ Between keyframes_around(const std::vector<Keyframe>& keyframes, std::size_t fra
 
 std::vector<PoseCovarianceRow> closed_camera_poses(const DriveRecord& record,
                                                    const ClosedDrive& closed) {
-  std::vector<PoseCovarianceRow> rows = record.camera_poses();
+  std::vector<PoseCovarianceRow> rows;
+  record.each_camera_pose([&](const PoseCovarianceRow& row) { rows.push_back(row); });
   for (std::size_t i = 0; i < rows.size(); ++i) {
     rows[i].T_world_body = closed.frames[i];
     if (closed.covariances.empty()) continue;

@@ -6,7 +6,8 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <iterator>
+#include <optional>
+#include <string>
 #include <utility>
 
 namespace oneac::app {
@@ -27,58 +28,67 @@ bool DriveRecord::has_scale() const {
   });
 }
 
-void DriveRecord::take(Settled settled) {
-  for (const SettledFrame& frame : settled.frames) {
-    frames.at(frame.frame).T_first_cam = frame.T_first_cam;
+void DriveRecord::add(FrameResult frame, double decode) {
+  const Settled settled = std::exchange(frame.settled, {});
+  if (frame.step && !frame.step->fault.empty() && faulty.count++ == 0) {
+    faulty.first = "images " + std::to_string(frame.step->index1) + "-" +
+                   std::to_string(frame.step->index2) + ": " + frame.step->fault;
   }
-  std::move(settled.keyframes.begin(), settled.keyframes.end(), std::back_inserter(keyframes));
+  frames.push_back(frame);
+  decode_ms.push_back(decode);
+  take(settled);
 }
 
-void DriveRecord::take(SettledTracks settled) {
+void DriveRecord::take(const Settled& settled) {
+  for (const SettledFrame& final : settled.frames) {
+    FrameResult frame = frames.at(final.frame);
+    frame.T_first_cam = final.T_first_cam;
+    frames.replace(final.frame, frame);
+  }
+  for (const Keyframe& keyframe : settled.keyframes) keyframes.push_back(keyframe);
+}
+
+void DriveRecord::take(const SettledTracks& settled) {
   const auto& [sightings, of_points] = settled;
   tracks.sightings.insert(tracks.sightings.end(), sightings.begin(), sightings.end());
   tracks.of_points.insert(tracks.of_points.end(), of_points.begin(), of_points.end());
 }
 
 void DriveRecord::doubt_metres(double doubt, double max_uncertainty) {
-  for (FrameResult& frame : frames) {
+  frames.change_all([&](FrameResult& frame) {
     if (frame.step) oneac::doubt_metres(*frame.step, doubt, max_uncertainty);
-  }
-  for (Keyframe& keyframe : keyframes) {
-    keyframe.metric = keyframe.metric && doubt <= max_uncertainty;
-  }
+  });
+  keyframes.keep_metric(doubt <= max_uncertainty);
   common_length_sigma = std::hypot(common_length_sigma, doubt);
 }
 
 void DriveRecord::withdraw_metres() {
-  for (FrameResult& frame : frames) {
-    if (!frame.step) continue;
-    oneac::withdraw_metres(*frame.step);
-  }
-  for (Keyframe& keyframe : keyframes) keyframe.metric = false;
-}
-
-Trajectory DriveRecord::keyframe_trajectory() const {
-  Trajectory trajectory;
-  for (const Keyframe& keyframe : keyframes) {
-    // A map that begins anew begins at the last frame, which may have closed the map before.
-    if (!trajectory.times.empty() && keyframe.time_s <= trajectory.times.back()) {
-      trajectory.poses.back() = keyframe.T_first_cam;
-      continue;
-    }
-    trajectory.times.push_back(keyframe.time_s);
-    trajectory.poses.push_back(keyframe.T_first_cam);
-  }
-  return trajectory;
+  frames.change_all([](FrameResult& frame) {
+    if (frame.step) oneac::withdraw_metres(*frame.step);
+  });
+  keyframes.keep_metric(false);
 }
 
 Trajectory DriveRecord::camera_trajectory() const {
   Trajectory trajectory;
+  trajectory.times.reserve(frames.size());
+  trajectory.poses.reserve(frames.size());
   for (const FrameResult& frame : frames) {
     trajectory.times.push_back(frame.time_s);
     trajectory.poses.push_back(frame.T_first_cam);
   }
   return trajectory;
+}
+
+double DriveRecord::path_length() const {
+  double length = 0.0;
+  std::optional<Eigen::Vector3d> before;
+  for (const FrameResult& frame : frames) {
+    const Eigen::Vector3d now = frame.T_first_cam.translation();
+    if (before) length += (now - *before).norm();
+    before = now;
+  }
+  return length;
 }
 
 Eigen::Isometry3d DriveRecord::mount() const {
@@ -91,18 +101,29 @@ Eigen::Isometry3d DriveRecord::mount() const {
   return T;
 }
 
-Trajectory DriveRecord::vehicle_trajectory() const {
+Eigen::Isometry3d DriveRecord::vehicle_pose(const Eigen::Isometry3d& T_first_cam) const {
   const Eigen::Isometry3d T = mount();
-  Trajectory trajectory;
-  for (const FrameResult& frame : frames) {
-    trajectory.times.push_back(frame.time_s);
-    trajectory.poses.push_back(T * frame.T_first_cam * T.inverse());
+  return T * T_first_cam * T.inverse();
+}
+
+Trajectory DriveRecord::vehicle_trajectory() const {
+  Trajectory trajectory = camera_trajectory();
+  const Eigen::Isometry3d T = mount();
+  for (Eigen::Isometry3d& pose : trajectory.poses) {
+    const Eigen::Isometry3d T_first_cam = pose;
+    pose = T * T_first_cam * T.inverse();
   }
   return trajectory;
 }
 
 std::vector<RelativePoseRow> DriveRecord::relative_poses() const {
   std::vector<RelativePoseRow> rows;
+  each_relative_pose([&](const RelativePoseRow& row) { rows.push_back(row); });
+  return rows;
+}
+
+void DriveRecord::each_relative_pose(
+    const std::function<void(const RelativePoseRow&)>& visit) const {
   for (const FrameResult& frame : frames) {
     if (!frame.step) continue;
     const StepResult& step = *frame.step;
@@ -117,55 +138,47 @@ std::vector<RelativePoseRow> DriveRecord::relative_poses() const {
     row.acs = static_cast<int>(step.acs);
     row.status = to_string(step.status);
     row.sigma_length = sigma_of_length(step);
-    rows.push_back(row);
+    visit(row);
   }
-  return rows;
 }
 
-std::vector<CovarianceRow> DriveRecord::covariances() const {
-  const auto positions = position_covariances(frames, common_length_sigma, camera_belief.doubt);
+void DriveRecord::each_covariance(const std::function<void(const CovarianceRow&)>& visit) const {
+  PoseUncertainty chain(common_length_sigma, camera_belief.doubt);
   const bool scaled = has_scale();
-  std::vector<CovarianceRow> rows;
-  for (std::size_t i = 0; i < frames.size(); ++i) {
-    if (!frames[i].step) continue;
-    const StepResult& step = *frames[i].step;
+  for (const FrameResult& frame : frames) {
+    const Eigen::Matrix3d position = chain.add(frame).bottomRightCorner<3, 3>();
+    if (!frame.step) continue;
+    const StepResult& step = *frame.step;
     CovarianceRow row{step.index1, step.index2, step.covariance, std::nullopt};
-    if (scaled) {
-      row.position_sigma = Eigen::Vector3d(positions[i].diagonal().cwiseMax(0.0).cwiseSqrt());
-    }
-    rows.push_back(row);
+    if (scaled) row.position_sigma = Eigen::Vector3d(position.diagonal().cwiseMax(0.0).cwiseSqrt());
+    visit(row);
   }
-  return rows;
 }
 
-std::vector<PoseCovarianceRow> DriveRecord::camera_poses() const {
-  const auto covariances = pose_covariances(frames, common_length_sigma, camera_belief.doubt);
+void DriveRecord::each_camera_pose(
+    const std::function<void(const PoseCovarianceRow&)>& visit) const {
+  PoseUncertainty chain(common_length_sigma, camera_belief.doubt);
   const bool scaled = has_scale();
-  std::vector<PoseCovarianceRow> rows;
-  for (std::size_t i = 0; i < frames.size(); ++i) {
-    const FrameResult& frame = frames[i];
-    rows.push_back({frame.index, frame.time_s, frame.T_first_cam, covariances[i],
-                    frame.step && frame.step->metric, scaled});
+  for (const FrameResult& frame : frames) {
+    visit({frame.index, frame.time_s, frame.T_first_cam, chain.add(frame),
+           frame.step && frame.step->metric, scaled});
   }
-  return rows;
 }
 
-std::vector<PoseCovarianceRow> DriveRecord::vehicle_poses() const {
+void DriveRecord::each_vehicle_pose(
+    const std::function<void(const PoseCovarianceRow&)>& visit) const {
   const Eigen::Isometry3d T = mount();
-  std::vector<PoseCovarianceRow> rows = camera_poses();
-  for (PoseCovarianceRow& row : rows) row = carried_to(T, row);
-  return rows;
+  each_camera_pose([&](const PoseCovarianceRow& row) { visit(carried_to(T, row)); });
 }
 
-std::vector<TimingRow> DriveRecord::timings() const {
-  std::vector<TimingRow> rows;
-  for (std::size_t i = 0; i < frames.size(); ++i) {
-    if (!frames[i].step) continue;
-    const StepResult& step = *frames[i].step;
-    rows.push_back({step.index1, step.index2, decode_ms[i], step.features_ms, step.estimate_ms,
-                    step.refine_ms});
+void DriveRecord::each_timing(const std::function<void(const TimingRow&)>& visit) const {
+  std::size_t i = 0;
+  for (const FrameResult& frame : frames) {
+    const double decode = decode_ms[i++];
+    if (!frame.step) continue;
+    const StepResult& step = *frame.step;
+    visit({step.index1, step.index2, decode, step.features_ms, step.estimate_ms, step.refine_ms});
   }
-  return rows;
 }
 
 }  // namespace oneac::app

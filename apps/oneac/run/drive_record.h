@@ -1,5 +1,7 @@
 #pragma once
 
+#include "record_store.h"
+
 #include "oneac/base/image.h"
 #include "oneac/evaluation/covariance_io.h"
 #include "oneac/evaluation/relative_poses_io.h"
@@ -10,6 +12,8 @@
 #include <Eigen/Geometry>
 
 #include <cstddef>
+#include <filesystem>
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -21,12 +25,24 @@ struct TimeSpan {
   double begin_s, end_s;  ///< [s] Unix times
 };
 
-/// What a run has computed so far: grows frame by frame and can be written at any time.
+/// Answers of the initialiser that were not used, see StepResult::fault.
+struct FaultyAnswers {
+  std::size_t count = 0;
+  std::string first;  ///< with its images
+};
+
+/// What a run has computed so far: grows frame by frame and can be written at any time. Frames and
+/// keyframes leave memory as they become many, see Spool; so reading them takes a copy each.
 struct DriveRecord {
-  std::vector<FrameResult> frames;
-  std::vector<Keyframe> keyframes;  ///< settled ones, in order
-  std::vector<double> decode_ms;    ///< one per frame
-  SettledTracks tracks;             ///< of the keyframes; empty unless they were asked for
+  /// @param folder  where a nameless file may hold what memory should not; "": that for such files
+  explicit DriveRecord(const std::filesystem::path& folder = {})
+      : frames(folder), keyframes(folder) {}
+
+  FrameStore frames;
+  KeyframeStore keyframes;  ///< settled ones, in order
+  FaultyAnswers faulty;
+  std::vector<double> decode_ms;  ///< one per frame
+  SettledTracks tracks;           ///< of the keyframes; empty unless they were asked for
   Eigen::Isometry3d T_vehicle_cam = CameraFrame::forward_looking_mount();  ///< as the log says
   PinholeCamera camera;
   std::string tilt_source;     ///< that was used: front_end.tilt.source, or what stood in for it
@@ -58,9 +74,11 @@ struct DriveRecord {
   [[nodiscard]] bool has_scale() const;
   /// Of the image, dark in car_mask. [-]
   [[nodiscard]] double car_mask_share() const;
+  /// Takes the next frame, and what it has made final.
+  void add(FrameResult frame, double decode_ms);
   /// Takes over what has become final.
-  void take(Settled settled);
-  void take(SettledTracks settled);
+  void take(const Settled& settled);
+  void take(const SettledTracks& settled);
   /// Every length is as unsure as the camera makes it, the steps before it was known, too.
   /// @param doubt, max_uncertainty  relative 1σ, see doubt_metres() of a step
   void doubt_metres(double doubt, double max_uncertainty);
@@ -68,20 +86,24 @@ struct DriveRecord {
   void withdraw_metres();
   /// The camera on the vehicle: as the log says, with the pitch and roll of `tilt`.
   [[nodiscard]] Eigen::Isometry3d mount() const;
-  /// Camera trajectory of the keyframes.
-  [[nodiscard]] Trajectory keyframe_trajectory() const;
+  /// The vehicle (X forward, Z up) against its first pose, by the camera's T_first_cam.
+  [[nodiscard]] Eigen::Isometry3d vehicle_pose(const Eigen::Isometry3d& T_first_cam) const;
+  /// [m, or units without scale] along the frames.
+  [[nodiscard]] double path_length() const;
   /// Camera trajectory, first camera = identity.
   [[nodiscard]] Trajectory camera_trajectory() const;
   /// Vehicle trajectory (X forward, Z up), first vehicle pose = identity; the mount is the log's
   /// with the pitch and roll of `tilt`.
   [[nodiscard]] Trajectory vehicle_trajectory() const;
   [[nodiscard]] std::vector<RelativePoseRow> relative_poses() const;
-  [[nodiscard]] std::vector<CovarianceRow> covariances() const;
+  /// Rows of result files, one after the other, in order of time.
+  void each_relative_pose(const std::function<void(const RelativePoseRow&)>& visit) const;
+  void each_covariance(const std::function<void(const CovarianceRow&)>& visit) const;
+  void each_timing(const std::function<void(const TimingRow&)>& visit) const;
   /// Of camera_trajectory(), with how sure its poses are.
-  [[nodiscard]] std::vector<PoseCovarianceRow> camera_poses() const;
+  void each_camera_pose(const std::function<void(const PoseCovarianceRow&)>& visit) const;
   /// Of vehicle_trajectory(), the same.
-  [[nodiscard]] std::vector<PoseCovarianceRow> vehicle_poses() const;
-  [[nodiscard]] std::vector<TimingRow> timings() const;
+  void each_vehicle_pose(const std::function<void(const PoseCovarianceRow&)>& visit) const;
 };
 
 }  // namespace oneac::app

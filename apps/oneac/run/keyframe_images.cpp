@@ -12,7 +12,7 @@ namespace oneac::app {
 /// A log once more, for the images of keyframes alone.
 class KeyframeImages::OfLog {
  public:
-  OfLog(const std::vector<Keyframe>& keyframes, const RunOptions& options)
+  OfLog(const KeyframeStore& keyframes, const RunOptions& options)
       : source_(source_options(options)) {
     std::map<std::size_t, std::size_t> places;
     for (std::size_t i = 0; i < keyframes.size(); ++i) places[keyframes[i].index] = i;

@@ -13,10 +13,12 @@ ReferenceTrack reference_track(const DriveRecord& record, const RunEvaluation& e
   for (const FrameResult& frame : record.frames) times.push_back(frame.time_s);
   const double tolerance = time_tolerance(times);
   track.poses.resize(record.frames.size());
-  for (std::size_t i = 0; i < record.frames.size(); ++i) {
-    std::optional<std::size_t> row = record.frames[i].index;
+  std::size_t i = 0;
+  for (const FrameResult& frame : record.frames) {
+    std::optional<std::size_t> row = frame.index;
     if (reference.has_times()) row = nearest_row(reference.times, times[i], tolerance);
     if (row && *row < reference.poses.size()) track.poses[i] = reference.poses[*row];
+    ++i;
   }
   return track;
 }

@@ -3,6 +3,7 @@
 #include "reference_track.h"
 
 #include "oneac/geometry/angles.h"
+#include "oneac/report/thinned_series.h"
 
 #include <algorithm>
 #include <cmath>
@@ -29,11 +30,14 @@ double yaw_of(const Eigen::Matrix3d& R) {
 template <class Value>
 PlotSeries per_step(const DriveRecord& record, const std::string& label, Value&& value) {
   PlotSeries series{label, {}, {}, Pen::kLine};
-  for (std::size_t i = 1; i < record.frames.size(); ++i) {
-    series.x.push_back(seconds(record, record.frames[i].time_s));
-    const bool has_step = record.frames[i].step.has_value();
-    series.y.push_back(has_step ? value(i, *record.frames[i].step) : kNone);
+  ThinnedSeries points(series, record.frames.size());
+  const double start = record.frames.front().time_s;
+  std::size_t i = 0;
+  for (const FrameResult& frame : record.frames) {
+    if (i++ == 0) continue;
+    points.add(frame.time_s - start, frame.step ? value(i - 1, *frame.step) : kNone);
   }
+  points.flush();
   return series;
 }
 
@@ -93,10 +97,12 @@ PlotSeries course_rate(const DriveRecord& record) {
 
 Plot yaw_rate_plot(const DriveRecord& record, const ReferenceTrack& track) {
   Plot plot{"Yaw rate (left positive)", "time [s]", "deg/s", {}, false};
-  const std::vector<Eigen::Isometry3d> poses = record.vehicle_trajectory().poses;
+  const auto pose = [&](std::size_t i) {
+    return record.vehicle_pose(record.frames[i].T_first_cam);
+  };
   plot.series.push_back(per_step(record, "estimate", [&](std::size_t i, const StepResult& step) {
-    return yaw_of(poses[i - 1].linear().transpose() * poses[i].linear()) /
-           (step.time2 - step.time1) / kDegree;
+    const Eigen::Isometry3d before = pose(i - 1), now = pose(i);
+    return yaw_of(before.linear().transpose() * now.linear()) / (step.time2 - step.time1) / kDegree;
   }));
   const Eigen::Matrix3d R = record.mount().linear();
   add_reference(record, track, plot, [&](const Eigen::Isometry3d& a, const Eigen::Isometry3d& b) {
@@ -114,6 +120,7 @@ PlotSeries scale_error(const DriveRecord& record, const ReferenceTrack& track) {
   std::size_t begin = 0;
   const auto restart = [&] { estimated = truth = {0.0}, begin = 0; };
   restart();
+  ThinnedSeries points(series, record.frames.size());
   for (std::size_t i = 1; i < record.frames.size(); ++i) {
     if (!track.poses[i - 1] || !track.poses[i]) {
       restart();
@@ -122,15 +129,16 @@ PlotSeries scale_error(const DriveRecord& record, const ReferenceTrack& track) {
     const auto step = [&](const Eigen::Isometry3d& a, const Eigen::Isometry3d& b) {
       return (b.translation() - a.translation()).norm();
     };
-    estimated.push_back(estimated.back() +
-                        step(record.frames[i - 1].T_first_cam, record.frames[i].T_first_cam));
+    const FrameResult before = record.frames[i - 1], now = record.frames[i];
+    estimated.push_back(estimated.back() + step(before.T_first_cam, now.T_first_cam));
     truth.push_back(truth.back() + step(*track.poses[i - 1], *track.poses[i]));
     while (truth.back() - truth[begin + 1] >= kScaleStretch) ++begin;
     const double length = truth.back() - truth[begin];
     if (length < kScaleStretch) continue;
-    series.x.push_back(seconds(record, record.frames[i].time_s));
-    series.y.push_back(100.0 * ((estimated.back() - estimated[begin]) / length - 1.0));
+    points.add(seconds(record, now.time_s),
+               100.0 * ((estimated.back() - estimated[begin]) / length - 1.0));
   }
+  points.flush();
   return series;
 }
 
@@ -150,10 +158,12 @@ Plot tilt_plot(const DriveRecord& record) {
   Plot plot{"Tilt of the camera, as believed", "time [s]", "deg", {}, false};
   const auto add = [&](const char* label, auto&& angle) {
     PlotSeries series{label, {}, {}, Pen::kLine};
+    ThinnedSeries points(series, record.frames.size());
+    const double start = record.frames.front().time_s;
     for (const FrameResult& frame : record.frames) {
-      series.x.push_back(seconds(record, frame.time_s));
-      series.y.push_back(angle(frame) / kDegree);
+      points.add(frame.time_s - start, angle(frame) / kDegree);
     }
+    points.flush();
     plot.series.push_back(std::move(series));
   };
   add("axis above the horizon", [](const FrameResult& f) { return f.tilt.tilt.pitch_up; });
@@ -182,16 +192,19 @@ std::vector<Plot> error_plots(const DriveRecord& record, const RunEvaluation& ev
   Plot rotation{"Rotation error of a pair", "time [s]", "deg", {{"estimate", {}, {}}}, true};
   Plot direction{"Direction error of a pair", "time [s]", "deg", {{"estimate", {}, {}}}, true};
   const auto& pairs = evaluation.against_poses->pairs;
+  ThinnedSeries of_rotation(rotation.series[0], pairs.size());
+  ThinnedSeries of_direction(direction.series[0], pairs.size());
+  const double start = record.frames.front().time_s;
   std::size_t i = 0;
   for (const FrameResult& frame : record.frames) {  // pairs are in the order of the frames
     if (!frame.step || i == pairs.size() || pairs[i].index2 != frame.step->index2) continue;
-    for (Plot* plot : {&rotation, &direction}) {
-      plot->series[0].x.push_back(seconds(record, frame.time_s));
-    }
-    rotation.series[0].y.push_back(pairs[i].rotation / kDegree);
-    direction.series[0].y.push_back(pairs[i].direction ? *pairs[i].direction / kDegree : kNone);
+    const double time = frame.time_s - start;
+    of_rotation.add(time, pairs[i].rotation / kDegree);
+    of_direction.add(time, pairs[i].direction ? *pairs[i].direction / kDegree : kNone);
     ++i;
   }
+  of_rotation.flush();
+  of_direction.flush();
   return {rotation, direction};
 }
 

@@ -86,7 +86,9 @@ class Drive {
         source_(source_options(options)),
         front_end_(front_end_options(options), options.run.threads),
         sensors_(read_ahead(options)),
-        progress_(options.run.progress && !options.run.quiet, "frames") {
+        progress_(options.run.progress && !options.run.quiet, "frames"),
+        record_(options.output) {
+    front_end_.keep_trajectory(false);  // the record has it
     feed_accelerations();
     feed_turns();
     if (progress_.is_shown()) progress_.expect(count_images(source_options(options)));
@@ -193,12 +195,8 @@ class Drive {
     if (is_first) remember_mounting(frame);
     speeds_.feed_until(frame.time_s, front_end_);
     const GreyImage image = observer_ ? frame.image : GreyImage{};
-    FrameResult result = front_end_.process(std::move(prepared.frame));
-    Settled settled = std::exchange(result.settled, {});
-    record_.frames.push_back(std::move(result));
-    record_.take(std::move(settled));
+    record_.add(front_end_.process(std::move(prepared.frame)), prepared.decode_ms);
     record_.take(front_end_.take_tracks());
-    record_.decode_ms.push_back(prepared.decode_ms);
     record_.tilt = front_end_.tilt();
     if (is_first) record_.given_tilt = record_.tilt;
     if (observer_) observe(image);

@@ -41,7 +41,9 @@ Track track_of(const Trajectory& enu, const Georeference& joined, const Geodetic
 
 GeoreferenceResult georeference_of(const DriveRecord& record) {
   const VehicleReference& reference = record.source.reference;
-  return georeference(record.vehicle_trajectory(), fixes_of(reference), record.has_scale());
+  const std::vector<PositionFix> fixes = fixes_of(reference);
+  const Trajectory vehicle = fixes.empty() ? Trajectory{} : record.vehicle_trajectory();
+  return georeference(vehicle, fixes, record.has_scale());
 }
 
 void write_georeferenced(const DriveRecord& record, const GeoreferenceResult& result, bool enu,

@@ -23,11 +23,25 @@ struct Tracks {
   std::map<TrackKey, std::size_t> places;
 };
 
+/// A keyframe as its sightings name it, and where tracking began that it belongs to.
+struct KeyframeName {
+  std::size_t id, segment;
+};
+
+std::vector<KeyframeName> names_of(const KeyframeStore& keyframes) {
+  std::vector<KeyframeName> names;
+  for (std::size_t i = 0; i < keyframes.size(); ++i) {
+    const Keyframe keyframe = keyframes[i];
+    names.push_back({keyframe.id, keyframe.segment});
+  }
+  return names;
+}
+
 /// Place of a keyframe in its record. @pre it has settled
-std::size_t place_of(std::uint32_t id, const std::vector<Keyframe>& keyframes) {
+std::size_t place_of(std::uint32_t id, const std::vector<KeyframeName>& keyframes) {
   const auto at =
       std::lower_bound(keyframes.begin(), keyframes.end(), id,
-                       [](const Keyframe& k, std::uint32_t other) { return k.id < other; });
+                       [](const KeyframeName& k, std::uint32_t other) { return k.id < other; });
   return static_cast<std::size_t>(at - keyframes.begin());
 }
 
@@ -46,10 +60,11 @@ PatchSighting to_patch_sighting(const SettledSighting& seen, double focal_px, do
 void add_tracks(const DriveRecord& record, std::size_t log, std::size_t first_keyframe,
                 double noise_px, Tracks& tracks) {
   auto& patches = tracks.drive.patches;
+  const std::vector<KeyframeName> keyframes = names_of(record.keyframes);
   for (const SettledSighting& settled : record.tracks.sightings) {
-    const std::size_t place = place_of(settled.keyframe, record.keyframes);
-    if (place == record.keyframes.size()) continue;
-    const TrackKey key{log, record.keyframes[place].segment, settled.track};
+    const std::size_t place = place_of(settled.keyframe, keyframes);
+    if (place == keyframes.size()) continue;
+    const TrackKey key{log, keyframes[place].segment, settled.track};
     const auto [at, fresh] = tracks.places.try_emplace(key, patches.size());
     if (fresh) patches.emplace_back();
     PatchSighting seen = to_patch_sighting(settled, tracks.drive.focal_px, noise_px);
@@ -82,8 +97,10 @@ std::vector<std::optional<Eigen::Vector3d>> points_of(const DriveRecord& record,
                                                       const Tracks& tracks,
                                                       const GlobalAdjustment& adjusted) {
   std::vector<std::optional<Eigen::Vector3d>> points;
-  for (const Keyframe& keyframe : record.keyframes) {
-    for (std::size_t i = 0; i < keyframe.points.size(); ++i) {
+  for (std::size_t k = 0; k < record.keyframes.size(); ++k) {
+    const Keyframe keyframe = record.keyframes[k];
+    const std::size_t count = record.keyframes.points(k).size();
+    for (std::size_t i = 0; i < count; ++i) {
       const std::size_t at = points.size();
       points.emplace_back();
       if (at >= record.tracks.of_points.size()) continue;

@@ -160,13 +160,15 @@ class RunGui::Impl {
     const double half_height = std::atan(0.5 * camera.height / camera.fy);
     frustum_->setHorzFOV(single(2.0 * half_width * 180.0 / M_PI));
     frustum_->setVertFOV(single(2.0 * half_height * 180.0 / M_PI));
-    for (; shown_ < record.keyframes.size(); ++shown_) add(record.keyframes[shown_]);
+    for (; shown_ < record.keyframes.size(); ++shown_) {
+      add(record.keyframes[shown_], record.keyframes.points(shown_));
+    }
   }
 
-  void add(const Keyframe& keyframe) {
+  void add(const Keyframe& keyframe, const std::vector<MapPoint>& points) {
     const Eigen::Vector3d at = keyframe.T_first_cam.translation();
     keyframes_->insertPoint(single(at.x()), single(at.y()), single(at.z()));
-    for (const MapPoint& point : keyframe.points) {
+    for (const MapPoint& point : points) {
       const Eigen::Vector3f& p = point.position;
       const float grey = 0.3F + 0.7F * static_cast<float>(point.grey) / 255.0F;  // on a dark ground
       points_->push_back(p.x(), p.y(), p.z(), grey, grey, grey);

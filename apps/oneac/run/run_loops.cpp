@@ -33,7 +33,7 @@ LoopKeyframe to_loop_keyframe(const Keyframe& keyframe, const DriveRecord& recor
   out.segment = keyframe.segment;
   out.metric = keyframe.metric;
   out.T_first_cam = keyframe.T_first_cam;
-  const auto& step = record.frames.at(keyframe.frame).step;
+  const std::optional<StepResult> step = record.frames.at(keyframe.frame).step;
   out.scale_sigma = step && step->metric ? step->length_sigma : record.common_length_sigma;
   return out;
 }
@@ -123,7 +123,8 @@ std::vector<Eigen::Isometry3d> moved_frames(const DriveRecord& record,
   const auto& keyframes = record.keyframes;
   std::size_t next = 0;
   for (std::size_t i = 0; i < record.frames.size(); ++i) {
-    const Eigen::Isometry3d& T = record.frames[i].T_first_cam;
+    const FrameResult frame = record.frames[i];
+    const Eigen::Isometry3d& T = frame.T_first_cam;
     while (next < keyframes.size() && keyframes[next].frame <= i) ++next;
     const auto by = [&](std::size_t k) {
       return closed[k] * keyframes[k].T_first_cam.inverse() * T;
@@ -134,7 +135,7 @@ std::vector<Eigen::Isometry3d> moved_frames(const DriveRecord& record,
       frames.push_back(by(next - 1));
     } else {
       const double begin = keyframes[next - 1].time_s, end = keyframes[next].time_s;
-      const double share = end > begin ? (record.frames[i].time_s - begin) / (end - begin) : 0.0;
+      const double share = end > begin ? (frame.time_s - begin) / (end - begin) : 0.0;
       frames.push_back(blended(by(next - 1), by(next), std::clamp(share, 0.0, 1.0)));
     }
   }
@@ -201,9 +202,11 @@ Trajectory ClosedDrive::vehicle_trajectory(const DriveRecord& record) const {
 }
 
 std::vector<Keyframe> ClosedDrive::moved_keyframes(const DriveRecord& record) const {
-  std::vector<Keyframe> moved = record.keyframes;
+  std::vector<Keyframe> moved;
   std::size_t at = 0;
-  for (std::size_t i = 0; i < moved.size(); ++i) {
+  for (std::size_t i = 0; i < record.keyframes.size(); ++i) {
+    moved.push_back(record.keyframes[i]);
+    moved[i].points = record.keyframes.points(i);
     const Eigen::Isometry3f move =
         (graph.T_first_cam[i] * moved[i].T_first_cam.inverse()).cast<float>();
     moved[i].T_first_cam = graph.T_first_cam[i];
@@ -260,14 +263,13 @@ void write_closed_drive(const DriveRecord& record, const ClosedDrive& closed,
   write("trajectory_optimised_vehicle.csv",
         format_pose_covariances(closed_vehicle_poses(record, closed)));
   if (record.keyframes.empty()) return;
-  DriveRecord moved;
-  moved.keyframes = closed.moved_keyframes(record);
-  write("keyframes_optimised.tum", format_tum(moved.keyframe_trajectory()));
+  const std::vector<Keyframe> moved = closed.moved_keyframes(record);
+  write_file_atomically(folder / "keyframes_optimised.tum",
+                        [&](std::ostream& out) { write_keyframes(moved, out); });
   write("graph.g2o", format_g2o(keyframes_by_steps(record)) +
                          format_g2o_loops(closed.graph.loops, closed.keyframes));
-  write_file_atomically(folder / "points.ply",
-                        [&](std::ostream& out) { write_ply(moved.keyframes, out); });
-  write("map.simplemap", format_simple_map(moved.keyframes, record.mount(), record.camera));
+  write_file_atomically(folder / "points.ply", [&](std::ostream& out) { write_ply(moved, out); });
+  write("map.simplemap", format_simple_map(moved, record.mount(), record.camera));
 }
 
 void write_closed_drives(const std::vector<RecordedDrive>& drives, const ClosedDrives& closed,
@@ -283,7 +285,7 @@ void write_closed_drives(const std::vector<RecordedDrive>& drives, const ClosedD
     for (std::size_t i = 0; i < chain.size(); ++i) {
       chain[i].id = closed.keyframes[begin + i].id;
       chain[i].T_first_cam = drive.graph.T_first_cam.front() *
-                             record.keyframes.front().T_first_cam.inverse() *
+                             record.keyframes[0].T_first_cam.inverse() *
                              record.keyframes[i].T_first_cam;
     }
     graph += format_g2o(chain);

@@ -16,7 +16,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
+#include <ostream>
 #include <stdexcept>
 #include <string_view>
 #include <system_error>
@@ -34,11 +34,10 @@ std::string angle_text(double angle) {
   return std::signbit(angle) && text.front() != '-' ? "-" + text : text;
 }
 
-std::string format_tilts(const std::vector<FrameResult>& frames) {
-  std::string text =
-      "index,time,pitch_up_deg,pitch_sigma_deg,roll_right_deg,roll_sigma_deg,"
-      "suspension_pitch_deg,suspension_sigma_deg\n";
-  for (const FrameResult& frame : frames) {
+void write_tilts(const DriveRecord& record, std::ostream& out) {
+  out << "index,time,pitch_up_deg,pitch_sigma_deg,roll_right_deg,roll_sigma_deg,"
+         "suspension_pitch_deg,suspension_sigma_deg\n";
+  for (const FrameResult& frame : record.frames) {
     std::vector<std::string> cells = {std::to_string(frame.index),
                                       fixed_text(frame.time_s, kTimeDecimals)};
     const TiltBelief& tilt = frame.tilt;
@@ -46,18 +45,44 @@ std::string format_tilts(const std::vector<FrameResult>& frames) {
                                tilt.roll_sigma, frame.suspension.angle, frame.suspension.sigma}) {
       cells.push_back(angle_text(angle));
     }
-    text += csv_line(cells);
+    out << csv_line(cells);
   }
-  return text;
+}
+
+void write_points(const KeyframeStore& keyframes, std::ostream& out) {
+  write_ply_header(keyframes.count_points(), out);
+  for (std::size_t i = 0; i < keyframes.size(); ++i) write_ply_points(keyframes.points(i), out);
+}
+
+void write_simple_map(const DriveRecord& record, std::ostream& out) {
+  SimpleMapWriter map(record.mount(), record.camera, record.keyframes.size(), out);
+  for (std::size_t i = 0; i < record.keyframes.size(); ++i) map.add(record.keyframes[i]);
+  map.finish();
 }
 
 void write_map(const DriveRecord& record, const std::filesystem::path& folder) {
-  write_file_atomically(folder / "keyframes.tum", format_tum(record.keyframe_trajectory()));
-  write_file_atomically(folder / "graph.g2o", format_g2o(keyframes_by_steps(record)));
-  write_file_atomically(folder / "points.ply",
-                        [&](std::ostream& out) { write_ply(record.keyframes, out); });
-  write_file_atomically(folder / "map.simplemap",
-                        format_simple_map(record.keyframes, record.mount(), record.camera));
+  const auto write = [&](const char* name, auto&& produce) {
+    write_file_atomically(folder / name, [&](std::ostream& out) { produce(out); });
+  };
+  write("keyframes.tum", [&](std::ostream& out) { write_keyframes(record.keyframes, out); });
+  write("graph.g2o", [&](std::ostream& out) { write_graph(record, out); });
+  write("points.ply", [&](std::ostream& out) { write_points(record.keyframes, out); });
+  write("map.simplemap", [&](std::ostream& out) { write_simple_map(record, out); });
+}
+
+void write_trajectories(const DriveRecord& record, const std::filesystem::path& folder) {
+  const auto write = [&](const char* name, auto&& line) {
+    write_file_atomically(folder / name, [&](std::ostream& out) {
+      for (const FrameResult& frame : record.frames) out << line(frame);
+    });
+  };
+  write("trajectory_camera.kitti",
+        [](const FrameResult& frame) { return kitti_line(frame.T_first_cam); });
+  write("trajectory_camera.tum",
+        [](const FrameResult& frame) { return tum_line(frame.time_s, frame.T_first_cam); });
+  write("trajectory_vehicle.tum", [&](const FrameResult& frame) {
+    return tum_line(frame.time_s, record.vehicle_pose(frame.T_first_cam));
+  });
 }
 
 std::string text_of(const TimeSpan& span) {
@@ -132,16 +157,9 @@ std::string about_steps_without_metres(const DriveRecord& record) {
 
 /// Empty when every answer of the initialiser could be used.
 std::string about_faulty_answers(const DriveRecord& record) {
-  std::size_t faulty = 0;
-  std::string first;
-  for (const FrameResult& frame : record.frames) {
-    if (!frame.step || frame.step->fault.empty() || ++faulty > 1) continue;
-    first = "images " + std::to_string(frame.step->index1) + "-" +
-            std::to_string(frame.step->index2) + ": " + frame.step->fault;
-  }
-  if (faulty == 0) return "";
-  return std::to_string(faulty) + " answers of the initialiser cannot be used (first: " + first +
-         ")";
+  if (record.faulty.count == 0) return "";
+  return std::to_string(record.faulty.count) +
+         " answers of the initialiser cannot be used (first: " + record.faulty.first + ")";
 }
 
 /// The raw image's camera whose undistorted images have a focal length `factor` times as long:
@@ -209,23 +227,35 @@ std::string used_camera_ini(const DriveRecord& record, const std::string& log) {
 }
 
 void write_drive(const DriveRecord& record, const std::filesystem::path& folder) {
-  const Trajectory camera = record.camera_trajectory();
-  write_file_atomically(folder / "trajectory_camera.kitti", format_kitti(camera));
-  write_file_atomically(folder / "trajectory_camera.tum", format_tum(camera));
-  write_file_atomically(folder / "trajectory_vehicle.tum", format_tum(record.vehicle_trajectory()));
-  write_file_atomically(folder / "relative_poses.csv",
-                        format_relative_poses(record.relative_poses()));
-  write_file_atomically(folder / "covariance.csv", format_covariances(record.covariances()));
-  write_file_atomically(folder / "trajectory_camera.csv",
-                        format_pose_covariances(record.camera_poses()));
-  write_file_atomically(folder / "trajectory_vehicle.csv",
-                        format_pose_covariances(record.vehicle_poses()));
-  write_file_atomically(folder / "tilt.csv", format_tilts(record.frames));
+  write_trajectories(record, folder);
+  const auto write = [&](const char* name, auto&& produce) {
+    write_file_atomically(folder / name, [&](std::ostream& out) { produce(out); });
+  };
+  write("relative_poses.csv", [&](std::ostream& out) {
+    out << relative_poses_header();
+    record.each_relative_pose([&](const auto& row) { out << relative_pose_line(row); });
+  });
+  write("covariance.csv", [&](std::ostream& out) {
+    out << covariances_header();
+    record.each_covariance([&](const auto& row) { out << covariance_line(row); });
+  });
+  write("trajectory_camera.csv", [&](std::ostream& out) {
+    out << pose_covariances_header();
+    record.each_camera_pose([&](const auto& row) { out << pose_covariance_line(row); });
+  });
+  write("trajectory_vehicle.csv", [&](std::ostream& out) {
+    out << pose_covariances_header();
+    record.each_vehicle_pose([&](const auto& row) { out << pose_covariance_line(row); });
+  });
+  write("tilt.csv", [&](std::ostream& out) { write_tilts(record, out); });
   if (!record.keyframes.empty()) write_map(record, folder);
   if (!record.car_mask.empty()) {
     write_file_atomically(folder / "mask.png", png_of(record.car_mask.view()));
   }
-  write_file_atomically(folder / "timings.csv", format_timings(record.timings()));
+  write("timings.csv", [&](std::ostream& out) {
+    out << timings_header();
+    record.each_timing([&](const auto& row) { out << timing_line(row); });
+  });
 }
 
 void fail_if_empty(const DriveRecord& record, const std::string& log) {

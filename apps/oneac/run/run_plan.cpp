@@ -1,6 +1,8 @@
 #include "reference_track.h"
 #include "run_curves.h"
 
+#include "oneac/report/thinned_series.h"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -46,16 +48,14 @@ Laid laid_poses(const DriveRecord& record, const RunEvaluation& evaluation, cons
 
 Laid laid_gps(const DriveRecord& record, const Points& way) {
   Laid laid{"GPS", Pen::kDots, {}, {}};
-  const auto& frames = record.frames;
+  std::vector<double> times;
+  for (const FrameResult& frame : record.frames) times.push_back(frame.time_s);
   for (const GpsFix& fix : record.source.reference.gps) {
     if (!fix.position_enu) continue;
-    const auto after =
-        std::upper_bound(frames.begin(), frames.end(), fix.time_s,
-                         [](double time, const FrameResult& f) { return time < f.time_s; });
-    if (after == frames.begin() || after == frames.end()) continue;
-    const auto i = static_cast<std::size_t>(after - frames.begin());
-    const double share =
-        (fix.time_s - frames[i - 1].time_s) / (frames[i].time_s - frames[i - 1].time_s);
+    const auto after = std::upper_bound(times.begin(), times.end(), fix.time_s);
+    if (after == times.begin() || after == times.end()) continue;
+    const auto i = static_cast<std::size_t>(after - times.begin());
+    const double share = (fix.time_s - times[i - 1]) / (times[i] - times[i - 1]);
     laid.path.push_back(fix.position_enu->head<2>());
     laid.estimate.push_back(way[i - 1] + share * (way[i] - way[i - 1]));
   }
@@ -68,10 +68,13 @@ void scale(Points& points, double factor) {
 
 PlotSeries series_of(const char* label, Pen pen, const Points& points) {
   PlotSeries series{label, {}, {}, pen};
-  for (const Eigen::Vector2d& point : points) {
+  const std::size_t stride = plan_stride(points.size());
+  const auto add = [&](const Eigen::Vector2d& point) {
     series.x.push_back(point.x());
     series.y.push_back(point.y());
-  }
+  };
+  for (std::size_t i = 0; i < points.size(); i += stride) add(points[i]);
+  if (stride > 1) add(points.back());
   return series;
 }
 
@@ -103,8 +106,8 @@ Plot plan_of(const DriveRecord& record, const RunEvaluation& evaluation) {
   for (const FrameResult& frame : record.frames) {
     way.push_back(from_above(R, frame.T_first_cam.translation()));
   }
-  for (const Keyframe& keyframe : record.keyframes) {
-    keyframes.push_back(from_above(R, keyframe.T_first_cam.translation()));
+  for (std::size_t i = 0; i < record.keyframes.size(); ++i) {
+    keyframes.push_back(from_above(R, record.keyframes[i].T_first_cam.translation()));
   }
   std::vector<Laid> all = {laid_poses(record, evaluation, way), laid_gps(record, way)};
   const auto used =

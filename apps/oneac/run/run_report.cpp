@@ -178,7 +178,7 @@ void add_pictures(HtmlPage& page, const DriveRecord& record, const RunEvaluation
       "where a point was to where it is, its frame is what the affinity makes of a square. The "
       "pairs are extracted once more, without what a tracker remembered in the drive.");
   for (const FramePicture& picture : pictures) {
-    const StepResult& step = *record.frames[picture.frame.frame].step;
+    const StepResult step = *record.frames[picture.frame.frame].step;
     page.picture("images " + std::to_string(step.index1) + " and " + std::to_string(step.index2) +
                      ": " + picture.frame.reason,
                  overlay_svg(picture.picture));

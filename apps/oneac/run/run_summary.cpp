@@ -35,16 +35,15 @@ struct FrameRange {
 std::optional<FrameRange> frames_under_gps(const DriveRecord& record) {
   const std::vector<GpsFix>& gps = record.source.reference.gps;
   if (gps.empty()) return std::nullopt;
-  const auto covered = [&](const FrameResult& frame) {
-    return frame.time_s >= gps.front().time_s && frame.time_s <= gps.back().time_s;
-  };
-  const auto& frames = record.frames;
-  const auto first = std::find_if(frames.begin(), frames.end(), covered);
-  const auto last = std::find_if(frames.rbegin(), frames.rend(), covered);
-  if (first == frames.end()) return std::nullopt;
-  const FrameRange range{static_cast<std::size_t>(first - frames.begin()),
-                         static_cast<std::size_t>(frames.rend() - last) - 1};
-  if (range.first == range.last) return std::nullopt;
+  std::optional<FrameRange> range;
+  std::size_t i = 0;
+  for (const FrameResult& frame : record.frames) {
+    const bool covered = frame.time_s >= gps.front().time_s && frame.time_s <= gps.back().time_s;
+    if (covered && !range) range = FrameRange{i, i};
+    if (covered) range->last = i;
+    ++i;
+  }
+  if (!range || range->first == range->last) return std::nullopt;
   return range;
 }
 
@@ -195,12 +194,12 @@ std::string processor_name() {
 
 Json timing_json(const DriveRecord& record, const RunOptions& options, double wall_seconds) {
   std::vector<double> decode, features, estimate, refine;
-  for (const TimingRow& row : record.timings()) {
+  record.each_timing([&](const TimingRow& row) {
     decode.push_back(row.decode_ms);
     features.push_back(row.features_ms);
     estimate.push_back(row.estimate_ms);
     refine.push_back(row.refine_ms);
-  }
+  });
   const double frames = static_cast<double>(record.frames.size());
   return {{"wall_s", wall_seconds},
           {"frames_per_s", wall_seconds > 0.0 ? frames / wall_seconds : 0.0},
@@ -270,7 +269,9 @@ RunEvaluation evaluate_record(const DriveRecord& record, const RunOptions& optio
     }
   }
   evaluation.against_gps = compare_with_gps(record);
-  evaluation.gps_lag_s = lag_of_gps(record.vehicle_trajectory(), record.source.reference);
+  if (!record.source.reference.gps.empty()) {
+    evaluation.gps_lag_s = lag_of_gps(record.vehicle_trajectory(), record.source.reference);
+  }
   evaluation.georeference = georeference_of(record);
   return evaluation;
 }
@@ -297,7 +298,7 @@ std::string summary_json(const DriveRecord& record, const RunEvaluation& evaluat
   json["tilt_source_asked_for"] = options.front_end.tilt.source;
   json["counts"] = counts_json(record);
   json["camera"] = camera_json(record);
-  json["path_length"] = path_length(record.camera_trajectory().poses);
+  json["path_length"] = record.path_length();
   json["interrupted"] = record.interrupted;
   json["damage"] = record.source.damage;
   json["failure"] = record.failure;
@@ -318,8 +319,8 @@ std::string summary_json(const DriveRecord& record, const RunEvaluation& evaluat
 std::string summary_text(const DriveRecord& record, const RunEvaluation& evaluation) {
   const std::string metric = metric_word(record), unit = metric == "none" ? "units" : "m";
   std::string text = std::to_string(record.frames.size()) + " frames, " +
-                     fixed_text(path_length(record.camera_trajectory().poses), 1) + " " + unit +
-                     ", metric: " + metric + "\n";
+                     fixed_text(record.path_length(), 1) + " " + unit + ", metric: " + metric +
+                     "\n";
   if (const double share = record.car_mask_share(); share > 0.0) {
     text += "learned as the car's own: " + fixed_text(100.0 * share, 1) +
             " % of the image (mask.png)\n";

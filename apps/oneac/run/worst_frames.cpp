@@ -75,10 +75,11 @@ std::map<std::size_t, PairError> bad_errors(const DriveRecord& record,
   for (const PairError& error : evaluation.against_poses->pairs) {
     if (error.is_bad()) of_index[error.index2] = error;
   }
-  for (std::size_t i = 0; i < record.frames.size(); ++i) {
-    if (!record.frames[i].step) continue;
-    const auto found = of_index.find(record.frames[i].step->index2);
+  std::size_t i = 0;
+  for (const FrameResult& frame : record.frames) {
+    const auto found = frame.step ? of_index.find(frame.step->index2) : of_index.end();
     if (found != of_index.end()) errors[i] = found->second;
+    ++i;
   }
   return errors;
 }
@@ -121,39 +122,37 @@ Overlay overlay_of(const DriveRecord& record, const RunOptions& options, const S
 
 std::vector<WorstFrame> worst_frames(const DriveRecord& record, const RunEvaluation& evaluation,
                                      std::size_t count) {
-  const auto step = [&](std::size_t i) -> const StepResult& { return *record.frames[i].step; };
   std::vector<std::size_t> steps, predicted, few;
-  std::vector<double> inliers;
-  for (std::size_t i = 0; i < record.frames.size(); ++i) {
-    if (!record.frames[i].step) continue;
+  std::vector<double> inliers, of_frame;  // of the steps; of all frames
+  for (const FrameResult& frame : record.frames) {
+    const std::size_t i = of_frame.size();
+    of_frame.push_back(frame.step ? static_cast<double>(frame.step->inliers) : 0.0);
+    if (!frame.step) continue;
     steps.push_back(i);
-    inliers.push_back(static_cast<double>(step(i).inliers));
-    if (step(i).status == StepStatus::kPredicted) predicted.push_back(i);
+    inliers.push_back(of_frame.back());
+    if (frame.step->status == StepStatus::kPredicted) predicted.push_back(i);
   }
   if (steps.empty()) return {};
-  const double usual = percentile(inliers, 50.0);
-  std::copy_if(steps.begin(), steps.end(), std::back_inserter(few), [&](std::size_t i) {
-    return static_cast<double>(step(i).inliers) < kFewInliers * usual;
-  });
-  const auto fewer = [&](std::size_t a, std::size_t b) {
-    return step(a).inliers < step(b).inliers;
-  };
+  const double usual = percentile(std::move(inliers), 50.0);
+  std::copy_if(steps.begin(), steps.end(), std::back_inserter(few),
+               [&](std::size_t i) { return of_frame[i] < kFewInliers * usual; });
+  const auto fewer = [&](std::size_t a, std::size_t b) { return of_frame[a] < of_frame[b]; };
+  const auto inliers_of = [&](std::size_t i) { return inliers_text(*record.frames[i].step); };
   std::map<std::size_t, PairError> errors = bad_errors(record, evaluation);
   std::vector<std::size_t> judged;
   for (const auto& [frame, error] : errors) judged.push_back(frame);
   Chooser chooser(count);
   chooser.take(predicted, count / 3, fewer, [&](std::size_t i) {
-    return "the images did not carry the step, " + inliers_text(step(i));
+    return "the images did not carry the step, " + inliers_of(i);
   });
   chooser.take(
       judged, count / 3,
       [&](std::size_t a, std::size_t b) { return badness(errors[a]) > badness(errors[b]); },
       [&](std::size_t i) { return "far from the reference: " + error_text(errors[i]); });
-  chooser.take(few, count, fewer,
-               [&](std::size_t i) { return "few inliers: " + inliers_text(step(i)); });
+  chooser.take(few, count, fewer, [&](std::size_t i) { return "few inliers: " + inliers_of(i); });
   if (!chooser.result().empty()) return chooser.result();
   const std::size_t least = *std::min_element(steps.begin(), steps.end(), fewer);
-  return {{least, "the fewest inliers of the drive: " + inliers_text(step(least)), false}};
+  return {{least, "the fewest inliers of the drive: " + inliers_of(least), false}};
 }
 
 std::optional<GreyImage> read_image(const RunOptions& options, std::size_t index) {
@@ -172,8 +171,8 @@ std::vector<FramePicture> draw_frames(const DriveRecord& record, const RunOption
                                       const std::vector<WorstFrame>& frames) {
   std::set<std::size_t> wanted;
   for (const WorstFrame& frame : frames) {
-    wanted.insert(record.frames[frame.frame].step->index1);
-    wanted.insert(record.frames[frame.frame].step->index2);
+    const StepResult step = *record.frames[frame.frame].step;
+    wanted.insert({step.index1, step.index2});
   }
   std::vector<FramePicture> pictures;
   try {
@@ -185,7 +184,7 @@ std::vector<FramePicture> draw_frames(const DriveRecord& record, const RunOption
       if (wanted.count(ticket->index) == 1) tickets.emplace(ticket->index, *ticket);
     }
     for (const WorstFrame& frame : frames) {
-      const StepResult& step = *record.frames[frame.frame].step;
+      const StepResult step = *record.frames[frame.frame].step;
       pictures.push_back(
           {frame, overlay_of(record, options, step, source.load(tickets.at(step.index1)),
                              source.load(tickets.at(step.index2)))});

@@ -7,7 +7,7 @@
 #include <cerrno>
 #include <cstring>
 #include <fstream>
-#include <sstream>
+#include <ios>
 #include <string>
 #include <system_error>
 
@@ -26,6 +26,15 @@ constexpr int kMostLinks = 40;  // Linux follows as many
 
 [[noreturn]] void fail(const fs::path& path, const std::string& fault) {
   throw OutputError(path.string(), fault, "free some space or choose another output folder");
+}
+
+/// @throws std::ios_base::failure at the first fault of the disk, errno tells which
+void write_through(const fs::path& temporary, const std::function<void(std::ostream&)>& produce) {
+  std::ofstream out;
+  out.exceptions(std::ios::badbit | std::ios::failbit);
+  out.open(temporary, std::ios::binary | std::ios::trunc);
+  produce(out);
+  out.close();
 }
 
 }  // namespace
@@ -48,19 +57,25 @@ fs::path replaced_file(const fs::path& path) {
 }
 
 void write_file_atomically(const fs::path& path, std::string_view content) {
+  write_file_atomically(path, [&](std::ostream& out) {
+    out.write(content.data(), static_cast<std::streamsize>(content.size()));
+  });
+}
+
+void write_file_atomically(const fs::path& path,
+                           const std::function<void(std::ostream&)>& produce) {
   const fs::path file = replaced_file(path);
   const fs::path temporary = temporary_beside(file);
   std::error_code ignored;
-  {
-    std::ofstream out(temporary, std::ios::binary | std::ios::trunc);
-    out.write(content.data(), static_cast<std::streamsize>(content.size()));
-    out.flush();
-    if (!out) {
-      const std::string reason = std::strerror(errno);
-      out.close();
-      fs::remove(temporary, ignored);
-      fail(path, "cannot be written (" + reason + ")");
-    }
+  try {
+    write_through(temporary, produce);
+  } catch (const std::ios_base::failure&) {
+    const std::string reason = std::strerror(errno);
+    fs::remove(temporary, ignored);
+    fail(path, "cannot be written (" + reason + ")");
+  } catch (...) {
+    fs::remove(temporary, ignored);
+    throw;
   }
   std::error_code error;
   fs::rename(temporary, file, error);
@@ -68,13 +83,6 @@ void write_file_atomically(const fs::path& path, std::string_view content) {
     fs::remove(temporary, ignored);
     fail(path, "cannot be put in place (" + error.message() + ")");
   }
-}
-
-void write_file_atomically(const fs::path& path,
-                           const std::function<void(std::ostream&)>& produce) {
-  std::ostringstream buffer;
-  produce(buffer);
-  write_file_atomically(path, buffer.str());
 }
 
 void require_writable_folder(const fs::path& folder) {

@@ -32,42 +32,6 @@ std::string header() {
   return "index1,index2" + triangle_names() + ",sigma_x,sigma_y,sigma_z";
 }
 
-std::string pose_row_text(const PoseCovarianceRow& row) {
-  const Eigen::Vector3d p = row.T_world_body.translation();
-  Eigen::Quaterniond q(row.T_world_body.linear());
-  if (q.w() < 0.0) q.coeffs() *= -1.0;
-  if (!row.covariance.allFinite() || !row.T_world_body.matrix().allFinite()) {
-    throw std::invalid_argument("PoseCovarianceRow of image " + std::to_string(row.index) +
-                                ": numbers must be finite");
-  }
-  std::string line = exact_fixed_text(row.time_s, kTimeDecimals);
-  for (const double number : {p.x(), p.y(), p.z(), q.w(), q.x(), q.y(), q.z()}) {
-    line += ',' + exact_text(number);
-  }
-  line += ',' + std::to_string(row.index) + (row.metric ? ",1" : ",0");
-  for (int r = 0; r < kSize; ++r) {
-    for (int c = r; c < kSize; ++c) {
-      line += row.has_lengths || c < 3 ? ',' + exact_text(row.covariance(r, c)) : ",";
-    }
-  }
-  return line + '\n';
-}
-
-std::string row_text(const CovarianceRow& row) {
-  if (!row.covariance.allFinite() || (row.position_sigma && !row.position_sigma->allFinite())) {
-    throw std::invalid_argument("CovarianceRow of images " + std::to_string(row.index1) + " and " +
-                                std::to_string(row.index2) + ": numbers must be finite");
-  }
-  std::string line = std::to_string(row.index1) + ',' + std::to_string(row.index2);
-  for (int r = 0; r < kSize; ++r) {
-    for (int c = r; c < kSize; ++c) line += ',' + exact_text(row.covariance(r, c));
-  }
-  for (int axis = 0; axis < static_cast<int>(kAxes); ++axis) {
-    line += row.position_sigma ? ',' + exact_text((*row.position_sigma)[axis]) : ",";
-  }
-  return line + '\n';
-}
-
 /// The fields of one line, in the order of the header.
 class Fields {
  public:
@@ -114,9 +78,28 @@ CovarianceRow parse_row(const Fields& fields) {
 
 }  // namespace
 
+std::string covariances_header() {
+  return header() + '\n';
+}
+
+std::string covariance_line(const CovarianceRow& row) {
+  if (!row.covariance.allFinite() || (row.position_sigma && !row.position_sigma->allFinite())) {
+    throw std::invalid_argument("CovarianceRow of images " + std::to_string(row.index1) + " and " +
+                                std::to_string(row.index2) + ": numbers must be finite");
+  }
+  std::string line = std::to_string(row.index1) + ',' + std::to_string(row.index2);
+  for (int r = 0; r < kSize; ++r) {
+    for (int c = r; c < kSize; ++c) line += ',' + exact_text(row.covariance(r, c));
+  }
+  for (int axis = 0; axis < static_cast<int>(kAxes); ++axis) {
+    line += row.position_sigma ? ',' + exact_text((*row.position_sigma)[axis]) : ",";
+  }
+  return line + '\n';
+}
+
 std::string format_covariances(const std::vector<CovarianceRow>& rows) {
-  std::string text = header() + '\n';
-  for (const CovarianceRow& row : rows) text += row_text(row);
+  std::string text = covariances_header();
+  for (const CovarianceRow& row : rows) text += covariance_line(row);
   return text;
 }
 
@@ -135,9 +118,34 @@ std::vector<CovarianceRow> read_covariances(const std::filesystem::path& path) {
   return rows;
 }
 
+std::string pose_covariances_header() {
+  return "time,x,y,z,qw,qx,qy,qz,index,metric" + triangle_names() + '\n';
+}
+
+std::string pose_covariance_line(const PoseCovarianceRow& row) {
+  const Eigen::Vector3d p = row.T_world_body.translation();
+  Eigen::Quaterniond q(row.T_world_body.linear());
+  if (q.w() < 0.0) q.coeffs() *= -1.0;
+  if (!row.covariance.allFinite() || !row.T_world_body.matrix().allFinite()) {
+    throw std::invalid_argument("PoseCovarianceRow of image " + std::to_string(row.index) +
+                                ": numbers must be finite");
+  }
+  std::string line = exact_fixed_text(row.time_s, kTimeDecimals);
+  for (const double number : {p.x(), p.y(), p.z(), q.w(), q.x(), q.y(), q.z()}) {
+    line += ',' + exact_text(number);
+  }
+  line += ',' + std::to_string(row.index) + (row.metric ? ",1" : ",0");
+  for (int r = 0; r < kSize; ++r) {
+    for (int c = r; c < kSize; ++c) {
+      line += row.has_lengths || c < 3 ? ',' + exact_text(row.covariance(r, c)) : ",";
+    }
+  }
+  return line + '\n';
+}
+
 std::string format_pose_covariances(const std::vector<PoseCovarianceRow>& rows) {
-  std::string text = "time,x,y,z,qw,qx,qy,qz,index,metric" + triangle_names() + '\n';
-  for (const PoseCovarianceRow& row : rows) text += pose_row_text(row);
+  std::string text = pose_covariances_header();
+  for (const PoseCovarianceRow& row : rows) text += pose_covariance_line(row);
   return text;
 }
 

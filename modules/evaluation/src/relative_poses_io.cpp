@@ -150,19 +150,6 @@ void require_writable(const RelativePoseRow& row) {
   }
 }
 
-std::string row_text(const RelativePoseRow& row) {
-  Eigen::Quaterniond q(row.T_2_1.R);
-  if (q.w() < 0.0) q.coeffs() = -q.coeffs();
-  const Eigen::Vector3d& t = row.T_2_1.t;
-  std::string line = std::to_string(row.index1) + ',' + std::to_string(row.index2) + ',' +
-                     exact_fixed_text(row.t1, kTimeDecimals) + ',' +
-                     exact_fixed_text(row.t2, kTimeDecimals);
-  for (double v : {q.w(), q.x(), q.y(), q.z(), t.x(), t.y(), t.z()}) line += ',' + exact_text(v);
-  return line + (row.metric ? ",1," : ",0,") + std::to_string(row.inliers) + ',' +
-         std::to_string(row.acs) + ',' + row.status + ',' +
-         (row.sigma_length ? exact_text(*row.sigma_length) : "") + '\n';
-}
-
 }  // namespace
 
 std::vector<RelativePoseRow> read_relative_poses(const std::filesystem::path& path) {
@@ -186,26 +173,47 @@ bool looks_like_relative_poses(const std::filesystem::path& path) {
   return std::find(names.begin(), names.end(), kColumns.front()) != names.end();
 }
 
+std::string relative_poses_header() {
+  return header() + '\n';
+}
+
+std::string relative_pose_line(const RelativePoseRow& row) {
+  require_writable(row);
+  Eigen::Quaterniond q(row.T_2_1.R);
+  if (q.w() < 0.0) q.coeffs() = -q.coeffs();
+  const Eigen::Vector3d& t = row.T_2_1.t;
+  std::string line = std::to_string(row.index1) + ',' + std::to_string(row.index2) + ',' +
+                     exact_fixed_text(row.t1, kTimeDecimals) + ',' +
+                     exact_fixed_text(row.t2, kTimeDecimals);
+  for (double v : {q.w(), q.x(), q.y(), q.z(), t.x(), t.y(), t.z()}) line += ',' + exact_text(v);
+  return line + (row.metric ? ",1," : ",0,") + std::to_string(row.inliers) + ',' +
+         std::to_string(row.acs) + ',' + row.status + ',' +
+         (row.sigma_length ? exact_text(*row.sigma_length) : "") + '\n';
+}
+
 std::string format_relative_poses(const std::vector<RelativePoseRow>& rows) {
-  std::string text = header() + '\n';
-  for (const RelativePoseRow& row : rows) {
-    require_writable(row);
-    text += row_text(row);
-  }
+  std::string text = relative_poses_header();
+  for (const RelativePoseRow& row : rows) text += relative_pose_line(row);
   return text;
 }
 
-std::string format_timings(const std::vector<TimingRow>& rows) {
+std::string timings_header() {
+  return "index1,index2,ms_decode,ms_features,ms_estimate,ms_refine\n";
+}
+
+std::string timing_line(const TimingRow& row) {
   constexpr int kDecimals = 3;  // microseconds; thread clocks are no finer in practice
-  std::string text = "index1,index2,ms_decode,ms_features,ms_estimate,ms_refine\n";
-  for (const TimingRow& row : rows) {
-    text += std::to_string(row.index1) + ',' + std::to_string(row.index2);
-    for (double ms : {row.decode_ms, row.features_ms, row.estimate_ms, row.refine_ms}) {
-      if (!std::isfinite(ms)) throw std::invalid_argument("TimingRow: times must be finite");
-      text += ',' + fixed_text(ms, kDecimals);
-    }
-    text += '\n';
+  std::string line = std::to_string(row.index1) + ',' + std::to_string(row.index2);
+  for (double ms : {row.decode_ms, row.features_ms, row.estimate_ms, row.refine_ms}) {
+    if (!std::isfinite(ms)) throw std::invalid_argument("TimingRow: times must be finite");
+    line += ',' + fixed_text(ms, kDecimals);
   }
+  return line + '\n';
+}
+
+std::string format_timings(const std::vector<TimingRow>& rows) {
+  std::string text = timings_header();
+  for (const TimingRow& row : rows) text += timing_line(row);
   return text;
 }
 

@@ -58,15 +58,8 @@ std::vector<TextLine> pose_lines(const std::string& text, const std::string& fil
   return lines;
 }
 
-std::string row_text(const Eigen::Isometry3d& T) {
-  std::string line;
-  for (int row = 0; row < 3; ++row) {
-    for (int col = 0; col < 4; ++col) {
-      if (!line.empty()) line += ' ';
-      line += exact_text(T(row, col));
-    }
-  }
-  return line + '\n';
+void require_finite(const Eigen::Isometry3d& T) {
+  if (!T.matrix().allFinite()) throw std::invalid_argument("a pose of a trajectory must be finite");
 }
 
 }  // namespace
@@ -141,10 +134,35 @@ Trajectory read_tum(const std::filesystem::path& path) {
   return trajectory;
 }
 
+std::string kitti_line(const Eigen::Isometry3d& T) {
+  require_finite(T);
+  std::string line;
+  for (int row = 0; row < 3; ++row) {
+    for (int col = 0; col < 4; ++col) {
+      if (!line.empty()) line += ' ';
+      line += exact_text(T(row, col));
+    }
+  }
+  return line + '\n';
+}
+
+std::string tum_line(double time_s, const Eigen::Isometry3d& T) {
+  require_finite(T);
+  if (!std::isfinite(time_s)) {
+    throw std::invalid_argument("a time of a trajectory must be finite");
+  }
+  const Eigen::Vector3d p = T.translation();
+  Eigen::Quaterniond q(T.linear());
+  if (q.w() < 0.0) q.coeffs() = -q.coeffs();
+  std::string line = exact_fixed_text(time_s, kTimeDecimals);
+  for (double v : {p.x(), p.y(), p.z(), q.x(), q.y(), q.z(), q.w()}) line += ' ' + exact_text(v);
+  return line + '\n';
+}
+
 std::string format_kitti(const Trajectory& trajectory) {
   trajectory.validate();
   std::string text;
-  for (const Eigen::Isometry3d& T : trajectory.poses) text += row_text(T);
+  for (const Eigen::Isometry3d& T : trajectory.poses) text += kitti_line(T);
   return text;
 }
 
@@ -155,12 +173,7 @@ std::string format_tum(const Trajectory& trajectory) {
   }
   std::string text;
   for (std::size_t k = 0; k < trajectory.poses.size(); ++k) {
-    const Eigen::Vector3d p = trajectory.poses[k].translation();
-    Eigen::Quaterniond q(trajectory.poses[k].linear());
-    if (q.w() < 0.0) q.coeffs() = -q.coeffs();
-    text += exact_fixed_text(trajectory.times[k], kTimeDecimals);
-    for (double v : {p.x(), p.y(), p.z(), q.x(), q.y(), q.z(), q.w()}) text += ' ' + exact_text(v);
-    text += '\n';
+    text += tum_line(trajectory.times[k], trajectory.poses[k]);
   }
   return text;
 }

@@ -60,7 +60,7 @@ FrontEnd::FrontEnd(const FrontEndOptions& options, int threads)
       wheels_(options.scale.source == "wheels"),
       workers_(std::make_shared<Workers>(threads)),
       intake_(intake_options(options)),
-      profiler_(true, "", true) {
+      profiler_(true) {
   options_.validate();
   tracker_ = make_tracker(options_.features, workers_);
   const RelativePoseInitialiser::Ptr initialiser = make_initialiser(options_.initialiser);
@@ -112,7 +112,7 @@ FrameResult FrontEnd::process(PreparedFrame prepared) {
     started_ = true;
     FrameResult first = odometry_->start(frame);
     learner_->add_frame(first.time_s, false);
-    trajectory_.add(first);
+    if (keeps_trajectory_) trajectory_.add(first);
     return first;
   }
   FrameResult result = odometry_->advance(frame, std::move(pair), road);
@@ -129,7 +129,7 @@ FrameResult FrontEnd::process(PreparedFrame prepared) {
     MRPT_LOG_DEBUG_FMT("image %zu: %zu correspondences, %zu agree: the last motion goes on",
                        frame.index, result.step->acs, result.step->inliers);
   }
-  trajectory_.add(result);
+  if (keeps_trajectory_) trajectory_.add(result);
   return result;
 }
 

@@ -4,8 +4,10 @@
 #include "oneac/test_support/temporary_folder.h"
 
 #include <gtest/gtest.h>
+#include <mrpt/io/CMemoryStream.h>
 #include <mrpt/maps/CSimpleMap.h>
 #include <mrpt/obs/CObservationImage.h>
+#include <mrpt/serialization/CArchive.h>
 
 #include <fstream>
 #include <sstream>
@@ -54,6 +56,22 @@ TEST(MapFormats, PlyCountsItsPoints) {
   const std::string text = out.str();
   EXPECT_NE(text.find("element vertex 1\n"), std::string::npos);
   EXPECT_NE(text.find("end_header\n1 2 3.5 0 -1 0 200 200 200\n"), std::string::npos);
+}
+
+TEST(MapFormats, SimpleMapWrittenPieceByPieceIsTheOneThatMrptWrites) {
+  std::vector<Keyframe> keyframes = two_keyframes();
+  for (int i = 0; i < 298; ++i) keyframes.push_back(keyframes[1]);  // more than a byte counts
+  const std::string ours =
+      format_simple_map(keyframes, Eigen::Isometry3d::Identity(), PinholeCamera{});
+  mrpt::io::CMemoryStream in, out;
+  in.assignMemoryNotOwn(ours.data(), ours.size());
+  mrpt::maps::CSimpleMap map;
+  mrpt::serialization::archiveFrom(in) >> map;
+  ASSERT_EQ(map.size(), 300U);
+  mrpt::serialization::archiveFrom(out) << map;
+  const std::string mrpts(static_cast<const char*>(out.getRawBufferData()),
+                          static_cast<std::size_t>(out.getTotalBytesCount()));
+  EXPECT_TRUE(ours == mrpts);
 }
 
 TEST(MapFormats, SimpleMapIsReadByMrpt) {

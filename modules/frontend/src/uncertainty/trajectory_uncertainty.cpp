@@ -32,62 +32,57 @@ Matrix6 beside_length(const StepResult& step, double length) {
   return covariance;
 }
 
-/// Errors of (θ, p) so far: independent ones, two of length, and one of all turns together.
-class Chain {
- public:
-  Chain(double common_sigma, double camera_doubt)
-      : common_sigma_(common_sigma), turn_scale_(shared_turn_sigma(camera_doubt)) {}
-
-  void add(const StepResult& step, const Eigen::Isometry3d& before, const Eigen::Isometry3d& now) {
-    const Eigen::Vector3d d = now.translation() - before.translation();
-    add_turns(step, d, now.linear());
-    const Eigen::AngleAxisd turn(now.linear() * before.linear().transpose());
-    turned_ += turn_scale_ * turn.angle() * turn.axis();
-    by_turns_ += turned_.cross(d);
-    if (step.pose.t.norm() > 0.0) add_length(step, d);
-  }
-  /// Of (θ, p).
-  [[nodiscard]] Matrix6 pose() const {
-    Eigen::Matrix<double, 6, 1> by_scale_of_turns;
-    by_scale_of_turns << turned_, by_turns_;
-    Matrix6 all = turns_ + by_scale_of_turns * by_scale_of_turns.transpose();
-    all.bottomRightCorner<3, 3>() += common_ * common_.transpose() + lengths_;
-    return 0.5 * (all + all.transpose());
-  }
-
- private:
-  void add_turns(const StepResult& step, const Eigen::Vector3d& d, const Eigen::Matrix3d& R) {
-    Matrix6 carried = Matrix6::Identity(), from_step = Matrix6::Zero();
-    carried.bottomLeftCorner<3, 3>() = -cross_matrix(d);
-    from_step.topLeftCorner<3, 3>() = -R;
-    from_step.bottomLeftCorner<3, 3>() = -R * cross_matrix(-R.transpose() * d);
-    from_step.bottomRightCorner<3, 3>() = -R;
-    turns_ = carried * turns_ * carried.transpose() +
-             from_step * beside_length(step, d.norm()) * from_step.transpose();
-  }
-
-  /// e' = kept e + …, p' = p + σ d e' with a remembered error e of unit variance.
-  void add_length(const StepResult& step, const Eigen::Vector3d& d) {
-    const double sigma = step.metric ? step.length_sigma : kUnknownLength;
-    const double shared = std::min(sigma, common_sigma_);
-    common_ += shared * d;
-    const Eigen::Vector3d rest = std::sqrt(sigma * sigma - shared * shared) * d;
-    with_length_ *= std::exp(-d.norm() / kScaleMemory);
-    lengths_ +=
-        rest * with_length_.transpose() + with_length_ * rest.transpose() + rest * rest.transpose();
-    with_length_ += rest;
-  }
-
-  double common_sigma_, turn_scale_;
-  Eigen::Vector3d turned_ = Eigen::Vector3d::Zero();       ///< [rad] 1σ by the scale of turns ...
-  Eigen::Vector3d by_turns_ = Eigen::Vector3d::Zero();     ///< ... and of p by it
-  Matrix6 turns_ = Matrix6::Zero();                        ///< of (θ, p)
-  Eigen::Vector3d common_ = Eigen::Vector3d::Zero();       ///< 1σ of the shared error
-  Eigen::Matrix3d lengths_ = Eigen::Matrix3d::Zero();      ///< of p by the rest
-  Eigen::Vector3d with_length_ = Eigen::Vector3d::Zero();  ///< covariance of p and e
-};
-
 }  // namespace
+
+PoseUncertainty::PoseUncertainty(double common_sigma, double camera_doubt)
+    : common_sigma_(common_sigma), turn_scale_(shared_turn_sigma(camera_doubt)) {}
+
+PoseUncertainty::Matrix6 PoseUncertainty::add(const FrameResult& frame) {
+  if (before_ && frame.step) add_step(*frame.step, frame.T_first_cam);
+  before_ = frame.T_first_cam;
+  return pose();
+}
+
+void PoseUncertainty::add_step(const StepResult& step, const Eigen::Isometry3d& now) {
+  const Eigen::Vector3d d = now.translation() - before_->translation();
+  add_turns(step, d, now.linear());
+  const Eigen::AngleAxisd turn(now.linear() * before_->linear().transpose());
+  turned_ += turn_scale_ * turn.angle() * turn.axis();
+  by_turns_ += turned_.cross(d);
+  if (step.pose.t.norm() > 0.0) add_length(step, d);
+}
+
+// Errors so far: independent ones, two of length, and one of all turns together.
+PoseUncertainty::Matrix6 PoseUncertainty::pose() const {
+  Eigen::Matrix<double, 6, 1> by_scale_of_turns;
+  by_scale_of_turns << turned_, by_turns_;
+  Matrix6 all = turns_ + by_scale_of_turns * by_scale_of_turns.transpose();
+  all.bottomRightCorner<3, 3>() += common_ * common_.transpose() + lengths_;
+  return 0.5 * (all + all.transpose());
+}
+
+void PoseUncertainty::add_turns(const StepResult& step, const Eigen::Vector3d& d,
+                                const Eigen::Matrix3d& R) {
+  Matrix6 carried = Matrix6::Identity(), from_step = Matrix6::Zero();
+  carried.bottomLeftCorner<3, 3>() = -cross_matrix(d);
+  from_step.topLeftCorner<3, 3>() = -R;
+  from_step.bottomLeftCorner<3, 3>() = -R * cross_matrix(-R.transpose() * d);
+  from_step.bottomRightCorner<3, 3>() = -R;
+  turns_ = carried * turns_ * carried.transpose() +
+           from_step * beside_length(step, d.norm()) * from_step.transpose();
+}
+
+// e' = kept e + …, p' = p + σ d e' with a remembered error e of unit variance.
+void PoseUncertainty::add_length(const StepResult& step, const Eigen::Vector3d& d) {
+  const double sigma = step.metric ? step.length_sigma : kUnknownLength;
+  const double shared = std::min(sigma, common_sigma_);
+  common_ += shared * d;
+  const Eigen::Vector3d rest = std::sqrt(sigma * sigma - shared * shared) * d;
+  with_length_ *= std::exp(-d.norm() / kScaleMemory);
+  lengths_ +=
+      rest * with_length_.transpose() + with_length_ * rest.transpose() + rest * rest.transpose();
+  with_length_ += rest;
+}
 
 double shared_turn_sigma(double camera_doubt) {
   return std::max(kTurnScale, camera_doubt);
@@ -106,13 +101,8 @@ std::vector<Matrix6> pose_covariances(const std::vector<FrameResult>& frames, do
                                       double camera_doubt) {
   std::vector<Matrix6> covariances;
   covariances.reserve(frames.size());
-  Chain chain(common_sigma, camera_doubt);
-  for (std::size_t i = 0; i < frames.size(); ++i) {
-    if (i > 0 && frames[i].step) {
-      chain.add(*frames[i].step, frames[i - 1].T_first_cam, frames[i].T_first_cam);
-    }
-    covariances.push_back(chain.pose());
-  }
+  PoseUncertainty chain(common_sigma, camera_doubt);
+  for (const FrameResult& frame : frames) covariances.push_back(chain.add(frame));
   return covariances;
 }
 

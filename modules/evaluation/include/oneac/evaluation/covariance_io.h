@@ -26,6 +26,9 @@ struct CovarianceRow {
 /// the upper triangle row by row. Reads back exactly.
 /// @throws std::invalid_argument when a number is not finite
 [[nodiscard]] std::string format_covariances(const std::vector<CovarianceRow>& rows);
+/// Its parts, for what is written piece by piece. @throws as format_covariances()
+[[nodiscard]] std::string covariances_header();
+[[nodiscard]] std::string covariance_line(const CovarianceRow& row);
 
 /// Reads a covariance.csv as written by format_covariances().
 /// @throws InputError naming file, line and cure: not readable, another header, a wrong number of
@@ -48,6 +51,9 @@ struct PoseCovarianceRow {
 /// its entries with p empty without `has_lengths`. read_trajectory_file() reads its poses.
 /// @throws std::invalid_argument when a number is not finite
 [[nodiscard]] std::string format_pose_covariances(const std::vector<PoseCovarianceRow>& rows);
+/// Its parts, for what is written piece by piece. @throws as format_pose_covariances()
+[[nodiscard]] std::string pose_covariances_header();
+[[nodiscard]] std::string pose_covariance_line(const PoseCovarianceRow& row);
 
 /// The row of a body that sits so in the one of `row`, in the world that sits so in its world:
 /// T_fixed T_world_body T_fixed⁻¹, as the vehicle's of its camera's.

@@ -49,9 +49,15 @@ struct TimingRow {
 /// @throws std::invalid_argument when a number is not finite, a sigma_length is negative, or a
 ///         status has a comma or line break
 [[nodiscard]] std::string format_relative_poses(const std::vector<RelativePoseRow>& rows);
+/// Its parts, for what is written piece by piece. @throws as format_relative_poses()
+[[nodiscard]] std::string relative_poses_header();
+[[nodiscard]] std::string relative_pose_line(const RelativePoseRow& row);
 
 /// The text of a timings.csv, three decimals.
 /// @throws std::invalid_argument when a number is not finite
 [[nodiscard]] std::string format_timings(const std::vector<TimingRow>& rows);
+/// Its parts. @throws as format_timings()
+[[nodiscard]] std::string timings_header();
+[[nodiscard]] std::string timing_line(const TimingRow& row);
 
 }  // namespace oneac

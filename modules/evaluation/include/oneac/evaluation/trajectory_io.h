@@ -55,4 +55,9 @@ struct TrajectoryFile {
 /// @throws std::invalid_argument as validate(), and when there are no times
 [[nodiscard]] std::string format_tum(const Trajectory& trajectory);
 
+/// The line of one pose, as in format_kitti() and format_tum(), for what is written piece by piece.
+/// @throws std::invalid_argument when a number is not finite
+[[nodiscard]] std::string kitti_line(const Eigen::Isometry3d& T_world_body);
+[[nodiscard]] std::string tum_line(double time_s, const Eigen::Isometry3d& T_world_body);
+
 }  // namespace oneac

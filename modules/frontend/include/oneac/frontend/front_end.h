@@ -102,6 +102,8 @@ class FrontEnd : public mrpt::system::COutputLogger {
   [[nodiscard]] SettledTracks take_tracks();
   /// The camera's way so far, a row per frame: final where settled, and wholly after finish().
   [[nodiscard]] const DriveTrajectory& trajectory() const { return trajectory_; }
+  /// Without it trajectory() stays empty: for a drive of any length, whose results go elsewhere.
+  void keep_trajectory(bool keep) { keeps_trajectory_ = keep; }
 
   /// The camera's tilt as believed now; the log's, corrected by the drive.
   [[nodiscard]] Tilt tilt() const;
@@ -154,6 +156,7 @@ class FrontEnd : public mrpt::system::COutputLogger {
   TrackedPair correspondences_;
   ObservationIntake intake_;
   DriveTrajectory trajectory_;
+  bool keeps_trajectory_ = true;
   mrpt::system::CTimeLogger profiler_;
 };
 

@@ -3,6 +3,7 @@
 #include "oneac/frontend/frame_result.h"
 
 #include <Eigen/Core>
+#include <Eigen/Geometry>
 
 #include <optional>
 #include <vector>
@@ -30,6 +31,32 @@ namespace oneac {
 ///                       turns are wrong by as much, and by one per cent in any case
 [[nodiscard]] std::vector<Eigen::Matrix<double, 6, 6>> pose_covariances(
     const std::vector<FrameResult>& frames, double common_sigma, double camera_doubt = 0.0);
+
+/// The same one frame after the other, for drives that are in no vector.
+class PoseUncertainty {
+ public:
+  using Matrix6 = Eigen::Matrix<double, 6, 6>;
+
+  /// @param common_sigma, camera_doubt  see pose_covariances()
+  explicit PoseUncertainty(double common_sigma, double camera_doubt = 0.0);
+  /// The drive's next frame. @return its covariance of (θ, p)
+  [[nodiscard]] Matrix6 add(const FrameResult& frame);
+
+ private:
+  void add_turns(const StepResult& step, const Eigen::Vector3d& d, const Eigen::Matrix3d& R);
+  void add_length(const StepResult& step, const Eigen::Vector3d& d);
+  void add_step(const StepResult& step, const Eigen::Isometry3d& now);
+  [[nodiscard]] Matrix6 pose() const;
+
+  double common_sigma_, turn_scale_;
+  std::optional<Eigen::Isometry3d> before_;                ///< T_first_cam of the frame before
+  Eigen::Vector3d turned_ = Eigen::Vector3d::Zero();       ///< [rad] 1σ by the scale of turns ...
+  Eigen::Vector3d by_turns_ = Eigen::Vector3d::Zero();     ///< ... and of p by it
+  Matrix6 turns_ = Matrix6::Zero();                        ///< of (θ, p)
+  Eigen::Vector3d common_ = Eigen::Vector3d::Zero();       ///< 1σ of the shared error
+  Eigen::Matrix3d lengths_ = Eigen::Matrix3d::Zero();      ///< of p by the rest
+  Eigen::Vector3d with_length_ = Eigen::Vector3d::Zero();  ///< covariance of p and e
+};
 
 /// Relative 1σ that all turns of a drive share, for the doubt of its camera.
 [[nodiscard]] double shared_turn_sigma(double camera_doubt);
