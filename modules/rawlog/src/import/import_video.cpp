@@ -5,6 +5,7 @@
 
 #include "oneac/base/atomic_file.h"
 #include "oneac/base/error.h"
+#include "oneac/base/input_file.h"
 #include "oneac/base/number_text.h"
 
 #include <dlfcn.h>
@@ -59,11 +60,8 @@ class SilentVideo {
 class Video {
  public:
   explicit Video(const fs::path& file) : file_(file) {
-    std::error_code ignored;
-    if (!fs::is_regular_file(file, ignored)) {
-      const bool folder = fs::is_directory(file, ignored);
-      throw InputError(file.string(), folder ? "is a folder" : "no such file",
-                       "give the file of a video");
+    if (const std::string fault = fault_of_file(file); !fault.empty()) {
+      throw InputError(file.string(), fault, "give the file of a video");
     }
     // Only what is in the file: a name like "img_%04d.png" is no list of images here.
     if (!capture_.open(file.string(), cv::CAP_FFMPEG)) {
