@@ -245,6 +245,21 @@ TEST_F(Imports, OfAVideoGiveThePosesOfItsDecodedFrames) {
   expect_same(poses, poses_of(import("kitti", "kitti")), "video");
 }
 
+/// The usual video of a dashcam: the decoder holds the last frames back, and gives them no time.
+TEST_F(Imports, OfAVideoWithFramesThatNeedLaterOnesKeepTheirTimes) {
+  {
+    cv::VideoWriter writer((scratch() / "drive.mp4").string(), cv::CAP_FFMPEG,
+                           cv::VideoWriter::fourcc('a', 'v', 'c', '1'), 10.0, cv::Size(320, 240));
+    ASSERT_TRUE(writer.isOpened()) << "FFmpeg has no encoder of H.264";
+    for (const fs::path& image : images_) writer.write(cv::imread(image.string()));
+  }
+  const auto poses = poses_of(import("video", "drive.mp4", calibrated()));
+  fs::remove_all(scratch() / "kitti" / "image_0");
+  fs::copy(scratch() / "video_Images", scratch() / "kitti" / "image_0");
+  fs::remove(scratch() / "kitti" / "times.txt");
+  expect_same(poses, poses_of(import("kitti", "kitti")), "H.264");
+}
+
 /// Whatever reads bags: these say so before.
 TEST_F(Imports, OfABagOfAnotherKindSayWhatToDo) {
   const auto refusal = [&](const std::string& program, const fs::path& bag) {

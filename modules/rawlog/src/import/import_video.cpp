@@ -109,8 +109,8 @@ class FrameWriter {
   void run(ImageDrive& drive) {
     Video video(options_.source);
     for (std::size_t frame = 0; video.advance(); ++frame) {
-      const double time =
-          options_.fps ? static_cast<double>(frame) / *options_.fps : video.time_s();
+      const double time = options_.fps ? static_cast<double>(frame) / *options_.fps
+                                       : time_of(video.time_s(), frame);
       require_later(time, frame);
       if (time < options_.from_s) continue;
       if (options_.to_s && time >= *options_.to_s) break;
@@ -122,10 +122,22 @@ class FrameWriter {
                      std::to_string(drive.images.size()) + " frames between --from and --to",
                      "give a part of the video with two frames at least");
   }
+  /// Frames at the end whose time had to be guessed.
+  [[nodiscard]] std::size_t paced() const { return paced_; }
 
  private:
+  /// OpenCV has no time, but zero, for the frames that the decoder still holds at the end of the
+  /// file, the last ones of every H.264 with B-frames: they follow at the pace of those before.
+  [[nodiscard]] double time_of(double told_s, std::size_t frame) {
+    constexpr std::size_t kMostHeld = 16;  // of H.264 and H.265
+    if (told_s != 0.0 || frame < 2 || paced_ == kMostHeld) return told_s;
+    ++paced_;
+    return last_s_ + step_s_;
+  }
+
   void require_later(double time, std::size_t frame) {
     const bool later = frame == 0 || time > last_s_;
+    step_s_ = time - last_s_;
     last_s_ = time;
     if (later && std::isfinite(time)) return;
     throw InputError(options_.source.string() + ": frame " + std::to_string(frame),
@@ -148,7 +160,8 @@ class FrameWriter {
 
   const VideoImport& options_;
   fs::path folder_;
-  double last_s_ = 0.0;
+  double last_s_ = 0.0, step_s_ = 0.0;  ///< of the frame before, and to it
+  std::size_t paced_ = 0;
 };
 
 std::vector<GpsRecord> read_gps(const VideoImport& options, ImportReport& report) {
@@ -214,11 +227,16 @@ ImportReport import_video(const VideoImport& options) {
   drive.convention = options.convention;
   std::vector<GpsRecord> gps = read_gps(options, report);
   const double start_s = start_of(options, gps, report);
-  FrameWriter(options).run(drive);
+  FrameWriter frames(options);
+  frames.run(drive);
   for (double& time : drive.times_s) time += start_s;
   drive.camera = given_calibration(options, drive.images.front(), report);
   report.notes.push_back(std::to_string(drive.images.size()) + " frames decoded to " +
                          drive.images.front().parent_path().string());
+  if (frames.paced() > 0) {
+    report.notes.push_back("FFmpeg gives the last " + std::to_string(frames.paced()) +
+                           " frames no time: they follow at the pace of those before");
+  }
   add_gps(std::move(gps), drive, report);
   for (fs::path& image : drive.images) image = fs::absolute(image);
   write_drive(drive, options.log, false, report);
