@@ -127,10 +127,12 @@ class FrameWriter {
 
  private:
   /// OpenCV has no time, but zero, for the frames that the decoder still holds at the end of the
-  /// file, the last ones of every H.264 with B-frames: they follow at the pace of those before.
+  /// file, the last ones of every H.264 with B-frames: they follow at the pace of those before. In
+  /// an AVI it counts from what the decoder holds back at the start: from the first frame here.
   [[nodiscard]] double time_of(double told_s, std::size_t frame) {
     constexpr std::size_t kMostHeld = 16;  // of H.264 and H.265
-    if (told_s != 0.0 || frame < 2 || paced_ == kMostHeld) return told_s;
+    if (frame == 0) begin_s_ = told_s;
+    if (told_s != 0.0 || frame < 2 || paced_ == kMostHeld) return told_s - begin_s_;
     ++paced_;
     return last_s_ + step_s_;
   }
@@ -160,6 +162,7 @@ class FrameWriter {
 
   const VideoImport& options_;
   fs::path folder_;
+  double begin_s_ = 0.0;                ///< of the first frame
   double last_s_ = 0.0, step_s_ = 0.0;  ///< of the frame before, and to it
   std::size_t paced_ = 0;
 };
