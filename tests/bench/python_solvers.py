@@ -4,8 +4,9 @@
     PYTHONPATH=build/dev/python /usr/bin/python3 tests/bench/python_solvers.py \
         build/dev/tests/bench/liboneac_bench_python_loops.so [SOLVER...]
 
-Both run in this process, turn by turn, on the same correspondences; CPU time, the least of the rounds. The loop keeps
-what the function returns in a vector; Python's call checks its input and gives new numpy arrays.
+Both run in this process, turn by turn, on the same correspondences; CPU time, the least of the
+rounds. The loop keeps what the function returns in a vector; Python's call checks its input and
+gives new numpy arrays.
 """
 
 import ctypes
@@ -30,7 +31,7 @@ def samples_for(solver):
     made = [scenes.scene(solver, rng, solver.sample)[:3] for _ in range(SCENES)]
     arrays = [np.stack([np.asarray(scene[k]) for scene in made]) for k in range(3)]
     if solver.sample == 1:
-        arrays = [a.reshape((SCENES,) + a.shape[-(2 if k == 2 else 1):]) for k, a in enumerate(arrays)]
+        arrays = [a[:, 0] for a in arrays]
     times = SAMPLES // SCENES
     return [np.ascontiguousarray(np.tile(a, (times,) + (1,) * (a.ndim - 1))) for a in arrays]
 
