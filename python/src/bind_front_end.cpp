@@ -4,7 +4,9 @@
 #include "options.h"
 #include "records.h"
 
+#include "oneac/evaluation/relative_poses_io.h"
 #include "oneac/frontend/front_end.h"
+#include "oneac/frontend/trajectory_uncertainty.h"
 
 #include <pybind11/stl.h>
 
@@ -112,7 +114,7 @@ class LiveFrontEnd {
 
  private:
   void remember(const FrameResult& result) {
-    if (result.step) rows_.push_back(row_of(*result.step));
+    if (result.step) rows_.push_back(row_of(*result.step, sigma_of_length(*result.step)));
   }
 
   static py::object columns_of(const TrackedPair& pair);

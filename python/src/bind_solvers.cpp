@@ -40,22 +40,31 @@ std::size_t capacity_of(const Solver& solver) {
 py::object poses_of_one(const PoseSet& poses) {
   const Samples one{false, 1};
   PoseArrays arrays(one, poses.size());
-  PoseMemory(arrays).put(0, poses.size(), poses.begin(), poses.size());
+  PoseMemory(arrays).put(poses);
   return arrays.to_python();
+}
+
+/// Calls `take(first sample's number, correspondences of this and the next ones)` block by block.
+template <class Take>
+void for_each_block(const Solver& solver, const AcInput& acs, std::size_t samples, Take&& take) {
+  std::array<AffineCorrespondence, kBlock> block;
+  const std::size_t at_once = kBlock / solver.sample;
+  for (std::size_t first = 0; first < samples; first += at_once) {
+    const std::size_t count = std::min(at_once, samples - first) * solver.sample;
+    acs.require_finite(first * solver.sample, count);
+    acs.load(first * solver.sample, count, block.data());
+    take(first, AcSpan(block.data(), count));
+  }
 }
 
 /// Calls `take(sample's number, its correspondences)` for each sample.
 template <class Take>
 void for_each_sample(const Solver& solver, const AcInput& acs, std::size_t samples, Take&& take) {
-  std::array<AffineCorrespondence, kLargestSample> sample;
-  for (std::size_t first = 0; first < samples; first += kBlock) {
-    const std::size_t count = std::min(kBlock, samples - first);
-    acs.require_finite(first * solver.sample, count * solver.sample);
-    for (std::size_t i = first; i < first + count; ++i) {
-      acs.load(i * solver.sample, solver.sample, sample.data());
-      take(i, AcSpan(sample.data(), solver.sample));
+  for_each_block(solver, acs, samples, [&](std::size_t first, AcSpan block) {
+    for (std::size_t i = 0; i * solver.sample < block.size(); ++i) {
+      take(first + i, AcSpan(block.begin() + i * solver.sample, solver.sample));
     }
-  }
+  });
 }
 
 py::object solve(const Solver& solver, const py::object& x1, const py::object& x2,
@@ -76,9 +85,8 @@ py::object solve(const Solver& solver, const py::object& x1, const py::object& x
     if (solver.batch != nullptr) {
       solve_in_blocks(solver, acs, memory);
     } else {
-      std::array<PlanePose, PoseSet::kCapacity> poses;
-      for_each_sample(solver, acs, samples.count, [&](std::size_t i, AcSpan sample) {
-        memory.put(i, capacity, poses.data(), solver.run.put(sample, poses.data()));
+      for_each_block(solver, acs, samples.count, [&](std::size_t first, AcSpan block) {
+        solver.run.rows(block, solver.sample, memory.rows_from(first, capacity));
       });
     }
   }

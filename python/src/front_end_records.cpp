@@ -1,7 +1,5 @@
 #include "front_end_records.h"
 
-#include "oneac/frontend/trajectory_uncertainty.h"
-
 #include <mrpt/core/Clock.h>
 #include <pybind11/stl.h>
 
@@ -37,21 +35,6 @@ py::object to_python(const CameraBelief& belief) {
   return result_class("CameraBelief")(
       belief.given, belief.used, belief.focal_px, belief.focal_sigma, belief.drive_sigma,
       belief.bends, belief.sensors, belief.contradicting, belief.doubt, belief.knows_focal());
-}
-
-RelativePoseRow row_of(const StepResult& step) {
-  RelativePoseRow row;
-  row.index1 = step.index1;
-  row.index2 = step.index2;
-  row.t1 = step.time1;
-  row.t2 = step.time2;
-  row.T_2_1 = step.pose;
-  row.metric = step.metric;
-  row.inliers = static_cast<int>(step.inliers);
-  row.acs = static_cast<int>(step.acs);
-  row.status = to_string(step.status);
-  row.sigma_length = sigma_of_length(step);
-  return row;
 }
 
 void log_to_python(std::string_view text, mrpt::system::VerbosityLevel level) {

@@ -20,8 +20,6 @@ namespace oneac::python {
 /// oneac.TiltBelief and oneac.CameraBelief.
 [[nodiscard]] py::object to_python(const TiltBelief& belief);
 [[nodiscard]] py::object to_python(const CameraBelief& belief);
-/// As a row of relative_poses.csv.
-[[nodiscard]] RelativePoseRow row_of(const StepResult& step);
 /// A line of MRPT's logger to Python's, "oneac". Takes the interpreter's lock.
 void log_to_python(std::string_view text, mrpt::system::VerbosityLevel level);
 /// The observation of an image as the front-end's feed() takes it.

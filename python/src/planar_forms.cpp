@@ -36,18 +36,22 @@ PlanarPoseArrays from(const PlanarPoseArrays& poses, std::size_t first) {
           poses.valid + first};
 }
 
+void put(const PlanarPoseSet& found, const PlanarPoseArrays& poses, std::size_t i) {
+  const PlanarPose pose = found.empty() ? PlanarPose{} : found[0];
+  poses.cos_alpha[i] = pose.cos_alpha;
+  poses.sin_alpha[i] = pose.sin_alpha;
+  poses.tx[i] = pose.tx;
+  poses.tz[i] = pose.tz;
+  poses.valid[i] = static_cast<std::uint8_t>(!found.empty());
+}
+
 void solve_one_by_one(const Solver& solver, const AcInput& acs, const PlanarPoseArrays& poses) {
-  acs.require_finite(0, acs.size());
-  AffineCorrespondence ac;
-  for (std::size_t i = 0; i < acs.size(); ++i) {
-    acs.load(i, 1, &ac);
-    const PlanarPoseSet found = solver.run.planar(ac);
-    const PlanarPose pose = found.empty() ? PlanarPose{} : found[0];
-    poses.cos_alpha[i] = pose.cos_alpha;
-    poses.sin_alpha[i] = pose.sin_alpha;
-    poses.tx[i] = pose.tx;
-    poses.tz[i] = pose.tz;
-    poses.valid[i] = static_cast<std::uint8_t>(!found.empty());
+  std::array<AffineCorrespondence, kBlock> block;
+  for (std::size_t first = 0; first < acs.size(); first += kBlock) {
+    const std::size_t count = std::min(kBlock, acs.size() - first);
+    acs.require_finite(first, count);
+    acs.load(first, count, block.data());
+    for (std::size_t i = 0; i < count; ++i) put(solver.run.planar(block[i]), poses, first + i);
   }
 }
 

@@ -52,13 +52,15 @@ struct PoseMemory {
         n(arrays.n.mutable_data()),
         count(arrays.count.mutable_data()) {}
 
-  /// Writes a sample's poses; what is left of its `capacity` rows becomes no motion.
-  void put(std::size_t sample, std::size_t capacity, const PlanePose* poses,
-           std::size_t size) const {
-    count[sample] = static_cast<std::int64_t>(size);
-    std::size_t at = sample * capacity;
-    for (std::size_t i = 0; i < size; ++i) put_row(at++, poses[i].motion, poses[i].n);
-    while (at < (sample + 1) * capacity) put_row(at++, {}, Eigen::Vector3d::Zero());
+  /// One sample's poses, which fill the arrays.
+  void put(const PoseSet& poses) const {
+    count[0] = static_cast<std::int64_t>(poses.size());
+    for (std::size_t i = 0; i < poses.size(); ++i) put_row(i, poses[i].motion, poses[i].n);
+  }
+  /// The rows of sample `first` and those after it.
+  [[nodiscard]] PoseRows rows_from(std::size_t first, std::size_t capacity) const {
+    const std::size_t row = first * capacity;
+    return {R + 9 * row, t + 3 * row, n + 3 * row, count + first, capacity};
   }
   /// A block of planar motions, one or none per sample, as the list's batch forms give them.
   void operator()(std::size_t first, std::size_t size, const PlanarPoseArrays& poses) const {

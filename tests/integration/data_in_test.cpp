@@ -2,6 +2,7 @@
 #include "drive_fixture.h"
 
 #include "oneac/evaluation/trajectory_io.h"
+#include "oneac/rawlog/rawlog_source.h"
 
 #include <opencv2/core.hpp>
 #include <opencv2/imgcodecs.hpp>
@@ -243,6 +244,33 @@ TEST_F(Imports, OfAVideoGiveThePosesOfItsDecodedFrames) {
   fs::copy(scratch() / "video_Images", scratch() / "kitti" / "image_0");
   fs::remove(scratch() / "kitti" / "times.txt");
   expect_same(poses, poses_of(import("kitti", "kitti")), "video");
+}
+
+std::vector<double> times_in(const fs::path& log) {
+  SourceOptions options;
+  options.log = log;
+  RawlogSource source(options);
+  std::vector<double> times;
+  while (const auto ticket = source.next()) times.push_back(ticket->time_s);
+  return times;
+}
+
+/// The usual video of a dashcam: the decoder holds the last frames back, and gives them no time.
+TEST_F(Imports, OfAVideoWithFramesThatNeedLaterOnesKeepTheirTimes) {
+  for (const std::string name : {"drive.mp4", "drive.avi"}) {
+    {
+      cv::VideoWriter writer((scratch() / name).string(), cv::CAP_FFMPEG,
+                             cv::VideoWriter::fourcc('H', '2', '6', '4'), 10.0, cv::Size(320, 240));
+      ASSERT_TRUE(writer.isOpened()) << "FFmpeg has no encoder of H.264";
+      for (const fs::path& image : images_) writer.write(cv::imread(image.string()));
+    }
+    const std::vector<double> times = times_in(import("video", name, calibrated()));
+    ASSERT_EQ(times.size(), images_.size()) << name;
+    EXPECT_NEAR(times.front(), 1317016800.0, 1e-6) << name;  // as of images without times
+    for (std::size_t i = 1; i < times.size(); ++i) {
+      EXPECT_NEAR(times[i] - times[i - 1], 0.1, 1e-3) << name << ": frame " << i;
+    }
+  }
 }
 
 /// Whatever reads bags: these say so before.

@@ -181,6 +181,18 @@ TEST_F(Everyday, OnlyFilesAreReadAndReplaced) {
   expect_refused(oneac_program({"info", pipe.string()}), {"pipe", "not a file"});
   expect_refused(oneac_program({"eval", pipe.string(), (drive() / "poses.txt").string()}),
                  {"pipe"});
+  expect_refused(run(log(), {"--calibration", pipe.string()}), {"pipe", "not a file"});
+  const fs::path camera = scratch() / "camera.txt";
+  write_text(camera, "P0: 250 0 159.5 0 0 250 119.5 0 0 0 1 0\n");
+  const std::vector<std::string> video = {
+      "import",        "video",         pipe.string(),     "-o", (scratch() / "v.rawlog").string(),
+      "--calibration", camera.string(), "--camera-height", "1.5"};
+  expect_refused(oneac_program(video), {"pipe", "not a file"});
+  for (const char* flag : {"--gpx", "--nmea", "--csv"}) {
+    std::vector<std::string> arguments = video;
+    arguments.insert(arguments.end(), {flag, pipe.string()});
+    expect_refused(oneac_program(arguments), {"pipe", "not a file"});
+  }
   fs::create_directories(out());
   ASSERT_EQ(::mkfifo((fs::path(out()) / "summary.json").c_str(), 0600), 0);
   const ProgramResult result = run(log());

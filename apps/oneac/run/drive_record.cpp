@@ -126,19 +126,7 @@ void DriveRecord::each_relative_pose(
     const std::function<void(const RelativePoseRow&)>& visit) const {
   for (const FrameResult& frame : frames) {
     if (!frame.step) continue;
-    const StepResult& step = *frame.step;
-    RelativePoseRow row;
-    row.index1 = step.index1;
-    row.index2 = step.index2;
-    row.t1 = step.time1;
-    row.t2 = step.time2;
-    row.T_2_1 = step.pose;
-    row.metric = step.metric;
-    row.inliers = static_cast<int>(step.inliers);
-    row.acs = static_cast<int>(step.acs);
-    row.status = to_string(step.status);
-    row.sigma_length = sigma_of_length(step);
-    visit(row);
+    visit(row_of(*frame.step, sigma_of_length(*frame.step)));
   }
 }
 

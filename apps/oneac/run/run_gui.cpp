@@ -1,5 +1,6 @@
 #include "run_gui.h"
 
+#include "run_gui_text.h"
 #include "terminal/interrupt.h"
 
 #include "oneac/base/error.h"
@@ -13,6 +14,7 @@
 #include <mrpt/opengl/CPointCloudColoured.h>
 #include <mrpt/opengl/CSetOfLines.h>
 #include <mrpt/opengl/CSetOfObjects.h>
+#include <mrpt/opengl/opengl_fonts.h>
 #include <mrpt/poses/CPose3D.h>
 
 #include <algorithm>
@@ -37,6 +39,43 @@ constexpr float kFrustumNear = 0.1F, kFrustumFar = 2.0F;  // [m]
 constexpr double kHalfSide = 8.0;                         // [px] of the square that A is shown on
 constexpr float kLineWidth = 3.0F, kPointSize = 2.0F, kKeyframeSize = 6.0F;  // [px]
 const TColor kWay(93, 180, 238), kKeyframe(255, 146, 72), kInk(79, 195, 255), kFloor(70, 78, 88);
+const TColor kPoint(190, 190, 190), kText(240, 240, 240);  // points are as grey as in the image
+constexpr float kFontSize = 11.0F;                         // [px]
+constexpr double kLine = 22.0, kMargin = 16.0;             // [px]
+constexpr double kLegendWidth = 330.0;                     // [px] of its longest line
+// Of text messages; the lines of the state have the numbers from zero on.
+constexpr std::size_t kStateLines = 3, kFirstOfLegend = 10;
+
+struct LegendLine {
+  const char* text;
+  const TColor& colour;
+};
+const LegendLine kLegend[] = {{"way and camera", kWay},
+                              {"keyframes", kKeyframe},
+                              {"landmarks", kPoint},
+                              {"in the image: correspondences", kInk},
+                              {"floor: 10 m a square", kPoint}};
+
+/// A line of text, kept by its number. @param x, y  [px] from the left and the bottom; negative:
+/// from the right and the top
+void write(mrpt::opengl::COpenGLViewport& view, double x, double y, const std::string& text,
+           std::size_t number, const TColor& colour) {
+  mrpt::opengl::TFontParams font;
+  font.vfont_name = "sans";
+  font.vfont_scale = kFontSize;
+  font.color = mrpt::img::TColorf(colour);
+  font.draw_shadow = true;
+  view.addTextMessage(x, y, text, number, font);
+}
+
+void write_legend(mrpt::opengl::COpenGLViewport& view) {
+  double y = -kMargin - kLine;
+  std::size_t number = kFirstOfLegend;
+  for (const LegendLine& line : kLegend) {
+    write(view, -kLegendWidth, y, line.text, number++, line.colour);
+    y -= kLine;
+  }
+}
 
 /// Optical axes seen by axes X forward, Y left, Z up.
 Eigen::Matrix3d optical_from_forward() {
@@ -108,6 +147,7 @@ class RunGui::Impl {
     drive_->insert(points_);
     drive_->insert(frustum_);
     scene->insert(drive_);
+    write_legend(*scene->getViewport());
     window_.unlockAccess3DScene();
     window_.setCameraAzimuthDeg(180.0F);  // from behind: the first heading is X
     window_.setCameraElevationDeg(kElevation);
@@ -122,6 +162,7 @@ class RunGui::Impl {
     last_ = now;
     auto& scene = window_.get3DSceneAndLock();
     update(moment.record);
+    tell(*scene->getViewport(), moment.record);
     if (!scene->getViewport("image")) {
       const double width = 0.45;
       const double height = width * kWidth / kHeight * moment.image.height() / moment.image.width();
@@ -134,13 +175,24 @@ class RunGui::Impl {
 
   void finish(const DriveRecord& record) {
     if (!is_open()) return;
-    (void)window_.get3DSceneAndLock();
+    auto& scene = window_.get3DSceneAndLock();
     update(record);
+    tell(*scene->getViewport(), record);
     window_.unlockAccess3DScene();
     look_at(record);
   }
 
  private:
+  /// @pre the scene is locked
+  static void tell(mrpt::opengl::COpenGLViewport& view, const DriveRecord& record) {
+    std::vector<std::string> lines = gui_lines(record.frames);
+    lines.resize(kStateLines);
+    double y = kMargin + kLine * (kStateLines - 1);
+    for (std::size_t i = 0; i < kStateLines; ++i, y -= kLine) {
+      write(view, kMargin, y, lines[i], i, kText);
+    }
+  }
+
   /// @pre the scene is locked
   void update(const DriveRecord& record) {
     if (record.frames.empty()) return;

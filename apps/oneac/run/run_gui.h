@@ -7,7 +7,8 @@
 namespace oneac::app {
 
 /// A window with the vehicle's way, keyframes, landmarks, the camera, and its image with the affine
-/// correspondences. The user may close it at any time; the run goes on.
+/// correspondences, in words the frame, the distance, whether it is in metres, and a legend. The
+/// user may close it at any time; the run goes on.
 class RunGui {
  public:
   /// @throws InputError when the program was built without windows, or there is no display

@@ -1,9 +1,10 @@
 #include "oneac/base/input_file.h"
 
+#include "oneac/base/error.h"
+
 #include <array>
 #include <cstdint>
 #include <cstring>
-#include <fstream>
 #include <system_error>
 #include <vector>
 
@@ -29,6 +30,15 @@ std::string fault_of_file(const fs::path& path) {
   if (error) return "cannot be read (" + error.message() + ")";
   if (status.type() == fs::file_type::directory) return "is a folder";
   return "is a pipe, a device or a socket, not a file";
+}
+
+std::ifstream open_input(const fs::path& path, const std::string& cure) {
+  if (const std::string fault = fault_of_file(path); !fault.empty()) {
+    throw InputError(path.string(), fault, cure);
+  }
+  std::ifstream stream(path, std::ios::binary);
+  if (!stream) throw InputError(path.string(), "cannot be opened", "check its permissions");
+  return stream;
 }
 
 std::string content_hash(const fs::path& path) {

@@ -1,11 +1,13 @@
 #include "oneac/base/input_file.h"
 
+#include "oneac/base/error.h"
 #include "oneac/test_support/temporary_folder.h"
 
 #include <gtest/gtest.h>
 #include <sys/stat.h>
 
 #include <fstream>
+#include <iterator>
 
 namespace oneac {
 namespace {
@@ -28,6 +30,16 @@ TEST(InputFile, SaysWhatElseAPathIs) {
   EXPECT_EQ(fault_of_file(folder.path()), "is a folder");
   EXPECT_EQ(fault_of_file(folder.path() / "pipe"), "is a pipe, a device or a socket, not a file");
   EXPECT_NE(fault_of_file(folder.path() / "loop").find("cannot be read ("), std::string::npos);
+}
+
+TEST(InputFile, OpensFilesAndRefusesTheRest) {
+  const TemporaryFolder folder;
+  std::ofstream(folder.path() / "a", std::ios::binary) << "one\r\n";
+  std::ifstream stream = open_input(folder.path() / "a", "look");
+  EXPECT_EQ(std::string(std::istreambuf_iterator<char>(stream), {}), "one\r\n");
+  ASSERT_EQ(::mkfifo((folder.path() / "pipe").c_str(), 0600), 0);
+  EXPECT_THROW(static_cast<void>(open_input(folder.path() / "pipe", "look")), InputError);
+  EXPECT_THROW(static_cast<void>(open_input(folder.path() / "none", "look")), InputError);
 }
 
 TEST(InputFile, HashTellsContentsApart) {

@@ -35,6 +35,28 @@ std::vector<RelativePoseRow> random_rows(int count) {
   return rows;
 }
 
+enum class Outcome { kSlid };
+
+const char* to_string(Outcome /*outcome*/) {
+  return "slid";
+}
+
+/// What a front end gives of a step, and more.
+struct Step {
+  std::size_t index1 = 3, index2 = 5, segment = 9;
+  double time1 = 1.5, time2 = 1.6;
+  RelativePose pose{Eigen::Matrix3d::Identity(), {0.0, 0.0, -1.25}};
+  bool metric = true;
+  std::size_t inliers = 7, acs = 11;
+  Outcome status = Outcome::kSlid;
+};
+
+TEST(RelativePoseRow, HoldsWhatAStepSays) {
+  const RelativePoseRow row = row_of(Step{}, 0.25);
+  EXPECT_EQ(format_relative_poses({row}),
+            kHeaderNow + "3,5,1.500000,1.600000,1,0,0,0,0,0,-1.25,1,7,11,slid,0.25\n");
+}
+
 class RelativePosesFile : public ::testing::Test {
  protected:
   std::filesystem::path file(const std::string& text) {

@@ -181,7 +181,7 @@ std::optional<std::size_t> claimed_pixels(const Bytes& bytes) {
   return webp_pixels(bytes);
 }
 
-GreyImage decoded(const Bytes& bytes, const std::string& name, int flags) {
+GreyImage decoded(const Bytes& bytes, const std::string& name, int flags, GreyRange& drive) {
   if (bytes.empty()) throw InputError(name, "the image file is empty", kCopyImage);
   if (is_cut_jpeg(bytes)) throw InputError(name, "the image ends early", kCopyImage);
   const auto pixel_count = claimed_pixels(bytes);
@@ -199,21 +199,28 @@ GreyImage decoded(const Bytes& bytes, const std::string& name, int flags) {
     pixels.release();
   }
   if (pixels.empty()) throw InputError(name, "the image cannot be decoded", kCopyImage);
-  return to_grey(pixels, name);
+  return to_grey(pixels, name, drive);
 }
 
 }  // namespace
 
 GreyImage decode_grey_file(const std::filesystem::path& file) {
-  return decode_grey_bytes(read_bytes(file), file.string());
+  GreyRange alone;
+  return decode_grey_file(file, alone);
+}
+
+GreyImage decode_grey_file(const std::filesystem::path& file, GreyRange& drive) {
+  return decoded(read_bytes(file), file.string(), cv::IMREAD_GRAYSCALE, drive);
 }
 
 GreyImage decode_grey_bytes(const Bytes& bytes, const std::string& name) {
-  return decoded(bytes, name, cv::IMREAD_GRAYSCALE);
+  GreyRange alone;
+  return decoded(bytes, name, cv::IMREAD_GRAYSCALE, alone);
 }
 
 GreyImage decode_grey_by_colour(const Bytes& bytes, const std::string& name) {
-  return decoded(bytes, name, cv::IMREAD_ANYCOLOR);
+  GreyRange none;  // a JPEG has 8 bits
+  return decoded(bytes, name, cv::IMREAD_ANYCOLOR, none);
 }
 
 namespace {
@@ -234,6 +241,11 @@ double range_of(const cv::Mat& grey16) {
 }  // namespace
 
 GreyImage to_grey(const cv::Mat& pixels, const std::string& name) {
+  GreyRange alone;
+  return to_grey(pixels, name, alone);
+}
+
+GreyImage to_grey(const cv::Mat& pixels, const std::string& name, GreyRange& drive) {
   const bool known_depth = pixels.depth() == CV_8U || pixels.depth() == CV_16U;
   const int channels = pixels.channels();
   if (pixels.empty() || !known_depth || (channels != 1 && channels != 3 && channels != 4)) {
@@ -245,7 +257,7 @@ GreyImage to_grey(const cv::Mat& pixels, const std::string& name) {
   if (channels == 4) cv::cvtColor(pixels, grey, cv::COLOR_BGRA2GRAY);
   if (grey.depth() == CV_16U) {
     cv::Mat narrow;
-    grey.convertTo(narrow, CV_8U, 256.0 / range_of(grey));
+    grey.convertTo(narrow, CV_8U, 256.0 / drive.of(range_of(grey)));
     grey = narrow;
   }
   return GreyImage(ImageView{grey.data, grey.cols, grey.rows, static_cast<int>(grey.step)});

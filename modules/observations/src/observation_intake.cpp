@@ -191,11 +191,11 @@ Intake ObservationIntake::read(const Sight& sight, const CObservation& observati
 }
 
 void ObservationIntake::add_pixels(const Sight& sight, const std::string& where,
-                                   CameraFrame& frame) const {
+                                   CameraFrame& frame) {
   const StageTimer timer(frame.decode_ms);
   const auto rectified = [this](const CameraView& of, const std::string& its,
                                 const ImageView& its_mask, GreyImage& mask) {
-    GreyImage stored = grey_of(*of.pixels, its);
+    GreyImage stored = grey_of(*of.pixels, its, grey_range_);
     const std::string name = name_of(*of.pixels, its);
     require_size(its_mask, stored, name);
     GreyImage image = reader_->rectify(std::move(stored), name);

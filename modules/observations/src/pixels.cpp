@@ -1,7 +1,6 @@
 #include "pixels.h"
 
 #include "oneac/mrpt_compat/observations.h"
-#include "oneac/observations/image_decoding.h"
 
 #include <algorithm>
 #include <filesystem>
@@ -29,9 +28,9 @@ std::string name_of(const mrpt::img::CImage& image, const std::string& where) {
   return image.isExternallyStored() ? file_of(image) : where;
 }
 
-GreyImage grey_of(const mrpt::img::CImage& image, const std::string& where) {
-  if (image.isExternallyStored()) return decode_grey_file(file_of(image));
-  return to_grey(compat::pixels_of(image), where);
+GreyImage grey_of(const mrpt::img::CImage& image, const std::string& where, GreyRange& drive) {
+  if (image.isExternallyStored()) return decode_grey_file(file_of(image), drive);
+  return to_grey(compat::pixels_of(image), where, drive);
 }
 
 }  // namespace oneac

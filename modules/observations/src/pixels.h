@@ -1,6 +1,7 @@
 #pragma once
 
 #include "oneac/base/image.h"
+#include "oneac/observations/image_decoding.h"
 
 #include <mrpt/img/CImage.h>
 
@@ -18,7 +19,9 @@ namespace oneac {
 /// 8-bit grey. An external image is read from its file, in memory or not: MRPT's own loading turns
 /// colour into other grey, and keeps it.
 /// @param where  for messages about an image in memory
+/// @param drive  what its images share, of 16 bits
 /// @throws InputError when it cannot be read or decoded
-[[nodiscard]] GreyImage grey_of(const mrpt::img::CImage& image, const std::string& where);
+[[nodiscard]] GreyImage grey_of(const mrpt::img::CImage& image, const std::string& where,
+                                GreyRange& drive);
 
 }  // namespace oneac

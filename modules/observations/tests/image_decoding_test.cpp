@@ -135,5 +135,18 @@ TEST_F(ImageDecoding, ScalesFewerBitsInSixteenByTheRangeInUse) {
   }
 }
 
+TEST_F(ImageDecoding, GivesTheImagesOfADriveOneRangeOfSixteenBits) {
+  cv::Mat day, night, sun;
+  test::ramp(150).convertTo(day, CV_16U, 16.0);  // 12 bits
+  test::ramp(10).convertTo(night, CV_16U, 8.0);  // by itself 10 bits
+  test::ramp(150).convertTo(sun, CV_16U, 256.0);
+  GreyRange drive;
+  EXPECT_EQ(to_grey(day, "day", drive).row(0)[40], 190);
+  EXPECT_EQ(to_grey(night, "night", drive).row(0)[40], 25);
+  EXPECT_EQ(to_grey(night, "night").row(0)[40], 100);
+  EXPECT_EQ(to_grey(sun, "brighter than the first", drive).row(0)[40], 190);
+  EXPECT_EQ(to_grey(day, "day", drive).row(0)[40], 190);
+}
+
 }  // namespace
 }  // namespace oneac

@@ -63,6 +63,15 @@ TEST(ObservationIntake, TakesEitherHalfOfAPair) {
   EXPECT_NEAR(stereo.baseline_m, 0.12, 1e-12);
 }
 
+TEST(ObservationIntake, KeepsTheGreyLevelsOfADrive) {
+  cv::Mat day, night;
+  test::ramp(150).convertTo(day, CV_16U, 16.0);
+  test::ramp(10).convertTo(night, CV_16U, 8.0);
+  ObservationIntake intake({});
+  EXPECT_EQ(frame_of(intake, *test::stored_image("CAM", 0.0, day)).image.row(0)[40], 190);
+  EXPECT_EQ(frame_of(intake, *test::stored_image("CAM", 1.0, night)).image.row(0)[40], 25);
+}
+
 TEST(ObservationIntake, TakesMasksAlongWithTheImages) {
   const TemporaryFolder folder;
   const std::string base = (folder.path() / "a").string();

@@ -64,6 +64,24 @@ TEST_F(Source, DeliversStoredImagesWithTimeCalibrationAndPose) {
   EXPECT_EQ(report_.images_missing, 0U);
 }
 
+TEST_F(Source, KeepsTheGreyLevelsOfADriveInWhateverOrderImagesAreLoaded) {
+  cv::Mat day, night;
+  ramp(150).convertTo(day, CV_16U, 16.0);  // 12 bits
+  ramp(10).convertTo(night, CV_16U, 8.0);  // by itself 10 bits
+  cv::imwrite((folder_.path() / "day.png").string(), day);
+  cv::imwrite((folder_.path() / "night.png").string(), night);
+  test::write_log(options_.log, {test::external_image("CAM", 0.0, "day.png"),
+                                 test::external_image("CAM", 0.1, "night.png")});
+  options_.images_dir = folder_.path();
+  for (const bool in_turn : {true, false}) {
+    RawlogSource source(options_);
+    const auto first = source.next(), second = source.next();
+    if (in_turn) static_cast<void>(source.load(*first));
+    EXPECT_EQ(level(source.load(*second)), 5) << in_turn;
+    EXPECT_EQ(level(source.load(*first)), 150) << in_turn;
+  }
+}
+
 TEST_F(Source, CountsMissingImagesOnceAndKeepsTheirIndex) {
   write_pairs();
   save("Images/p1_right.png", 1);

@@ -1,11 +1,10 @@
 #pragma once
 
+#include "row_writer.h"
+
 #include "oneac/geometry/essential.h"
 #include "oneac/solvers/essential_8pc.h"
 #include "oneac/solvers/registry.h"
-#include "oneac/solvers/relpose_1ac_planar_pitch.h"
-#include "oneac/solvers/relpose_1ac_vertical.h"
-#include "oneac/solvers/wall_pose.h"
 
 #include <cstddef>
 #include <type_traits>
@@ -16,19 +15,6 @@ namespace oneac::internal {
 
 /// What the solutions of a solver are.
 enum class Gives { kPoses, kHomographies, kEssentials };
-
-inline PlanePose with_plane(const PlanarPose& s) {
-  return {s.pose(), Eigen::Vector3d::UnitY()};
-}
-inline PlanePose with_plane(const WallPose& s) {
-  return {s.pose(), s.normal()};
-}
-inline PlanePose with_plane(const PitchedPose& s) {
-  return {s.pose(), Eigen::Vector3d::UnitY()};
-}
-inline PlanePose with_plane(const UprightPose& s) {
-  return {s.pose(), Eigen::Vector3d::UnitY()};
-}
 
 /// The solver's own solution set, whatever form its parameters have.
 template <auto kSolve>
@@ -46,10 +32,6 @@ auto call(AcSpan acs) {
 template <auto kSolve>
 std::size_t count(AcSpan acs) {
   return call<kSolve>(acs).size();
-}
-
-inline PlanePose with_plane(const RelativePose& T) {
-  return {T, Eigen::Vector3d::UnitY()};
 }
 
 template <auto kSolve, Gives kGives, class Take>
@@ -73,10 +55,17 @@ PoseSet poses(AcSpan acs) {
 }
 
 template <auto kSolve, Gives kGives>
-std::size_t put(AcSpan acs, PlanePose* out) {
-  std::size_t count = 0;
-  for_each_pose<kSolve, kGives>(acs, [&](const PlanePose& pose) { out[count++] = pose; });
-  return count;
+void rows(AcSpan acs, std::size_t sample, const PoseRows& out) {
+  RowWriter writer(out);
+  for (std::size_t first = 0; first < acs.size(); first += sample) {
+    const AcSpan one(acs.begin() + first, sample);
+    if constexpr (kGives == Gives::kPoses) {
+      for (const auto& solution : call<kSolve>(one)) writer.add(solution);
+    } else {
+      for_each_pose<kSolve, kGives>(one, [&](const PlanePose& pose) { writer.add(pose); });
+    }
+    writer.finish_sample();
+  }
 }
 
 inline void add_essential(const RelativePose& T, EssentialSet& set) {
@@ -117,7 +106,7 @@ constexpr SolverFunctions functions() {
                       &count<kMinimal>,
                       &essentials<kMinimal, kGives>,
                       &poses<kMinimal, kGives>,
-                      &put<kMinimal, kGives>,
+                      &rows<kMinimal, kGives>,
                       nullptr,
                       nullptr};
   if constexpr (kLeastSquares != nullptr) run.least_squares = &poses<kLeastSquares, kGives>;

@@ -13,6 +13,7 @@
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <limits>
 #include <set>
 #include <stdexcept>
 #include <string>
@@ -77,23 +78,65 @@ TEST(SolverList, FormsOfARowFindTheSameMotion) {
   }
 }
 
-TEST(SolverList, PosesPutIntoRoomAreThoseOfTheSetAndNoMore) {
-  SceneGenerator scene(9);
-  for (const Solver& solver : solvers()) {
-    SCOPED_TRACE(solver.name);
+/// Room for poses of some samples, all of it sevens.
+struct Room {
+  explicit Room(std::size_t samples, std::size_t room)
+      : R(9 * samples * room, 7.0),
+        t(3 * samples * room, 7.0),
+        n(3 * samples * room, 7.0),
+        count(samples, 7),
+        rows{R.data(), t.data(), n.data(), count.data(), room} {}
+
+  [[nodiscard]] PlanePose at(std::size_t row) const {
+    using RowMajor = Eigen::Matrix<double, 3, 3, Eigen::RowMajor>;
+    PlanePose pose;
+    pose.motion.R = Eigen::Map<const RowMajor>(R.data() + 9 * row);
+    pose.motion.t = Eigen::Map<const Eigen::Vector3d>(t.data() + 3 * row);
+    pose.n = Eigen::Map<const Eigen::Vector3d>(n.data() + 3 * row);
+    return pose;
+  }
+
+  std::vector<double> R, t, n;
+  std::vector<std::int64_t> count;
+  PoseRows rows;
+};
+
+void expect_equal(const PlanePose& pose, const PlanePose& other) {
+  EXPECT_EQ(pose.motion.R, other.motion.R);
+  EXPECT_EQ(pose.motion.t, other.motion.t);
+  EXPECT_EQ(pose.n, other.n);
+}
+
+constexpr std::size_t kRowSamples = 3;
+
+/// Correspondences of some samples, the second of them of no motion.
+std::vector<AffineCorrespondence> samples_in_a_row(const Solver& solver, SceneGenerator& scene) {
+  std::vector<AffineCorrespondence> acs;
+  for (std::size_t i = 0; i < kRowSamples; ++i) {
     const OwnScene own(solver, scene);
-    const PoseSet set = solver.run.poses(own.acs);
-    std::array<PlanePose, PoseSet::kCapacity> room;
-    for (PlanePose& pose : room) pose.n.setConstant(7.0);
-    ASSERT_EQ(solver.run.put(own.acs, room.data()), set.size());
-    for (std::size_t i = 0; i < room.size(); ++i) {
-      if (i >= set.size()) {
-        EXPECT_EQ(room[i].n, Eigen::Vector3d::Constant(7.0));
-        continue;
+    acs.insert(acs.end(), own.acs.begin(), own.acs.end());
+  }
+  acs[solver.sample].x2.setConstant(std::numeric_limits<double>::quiet_NaN());
+  return acs;
+}
+
+TEST(SolverList, RowsOfManySamplesAreTheirSetsAndNoMotionInTheRest) {
+  SceneGenerator scene(9);
+  const PlanePose none{{}, Eigen::Vector3d::Zero()};
+  for (const Solver& solver : solvers()) {
+    for (const std::size_t room : {std::size_t{1}, PoseSet::kCapacity}) {
+      SCOPED_TRACE(std::string(solver.name) + ", room for " + std::to_string(room));
+      const std::vector<AffineCorrespondence> acs = samples_in_a_row(solver, scene);
+      Room rows(kRowSamples, room);
+      solver.run.rows(acs, solver.sample, rows.rows);
+      for (std::size_t i = 0; i < kRowSamples; ++i) {
+        const PoseSet set = solver.run.poses({acs.data() + i * solver.sample, solver.sample});
+        const std::size_t size = std::min(set.size(), room);
+        EXPECT_EQ(rows.count[i], static_cast<std::int64_t>(size));
+        for (std::size_t k = 0; k < room; ++k) {
+          expect_equal(rows.at(i * room + k), k < size ? set[k] : none);
+        }
       }
-      EXPECT_EQ(room[i].motion.R, set[i].motion.R);
-      EXPECT_EQ(room[i].motion.t, set[i].motion.t);
-      EXPECT_EQ(room[i].n, set[i].n);
     }
   }
 }

@@ -1,7 +1,5 @@
 #include "images/log_image.h"
 
-#include "oneac/observations/image_decoding.h"
-
 #include <opencv2/core.hpp>
 
 #include <stdexcept>
@@ -124,13 +122,13 @@ LogImage read_log_image(DecompressingStream& stream, int version) {
   return image;
 }
 
-GreyImage decode_grey(const LogImage& image, const std::string& name) {
+GreyImage decode_grey(const LogImage& image, const std::string& name, GreyRange& drive) {
   if (image.kind == Kind::jpeg) return decode_grey_by_colour(image.bytes, name);
   const int type = image.kind == Kind::grey_16 ? CV_16U : CV_8U;
   const int channels = image.kind == Kind::bgr_8 ? 3 : 1;
   auto* data = const_cast<std::uint8_t*>(image.bytes.data());
   const cv::Mat pixels(image.height, image.width, CV_MAKETYPE(type, channels), data);
-  return to_grey(pixels, name);
+  return to_grey(pixels, name, drive);
 }
 
 }  // namespace oneac

@@ -3,6 +3,7 @@
 #include "read/decompressing_stream.h"
 
 #include "oneac/base/image.h"
+#include "oneac/observations/image_decoding.h"
 
 #include <cstdint>
 #include <memory>
@@ -31,7 +32,9 @@ using LogImages = std::vector<std::shared_ptr<const LogImage>>;
 [[nodiscard]] LogImage read_log_image(DecompressingStream& stream, int version);
 
 /// 8-bit grey. Not for external images.
+/// @param drive  what its images share, of 16 bits
 /// @throws InputError naming the image when it cannot be decoded
-[[nodiscard]] GreyImage decode_grey(const LogImage& image, const std::string& name);
+[[nodiscard]] GreyImage decode_grey(const LogImage& image, const std::string& name,
+                                    GreyRange& drive);
 
 }  // namespace oneac

@@ -17,8 +17,8 @@ std::size_t StoredImage::bytes() const {
   return unknown ? 0 : static_cast<std::size_t>(size);
 }
 
-GreyImage StoredImage::grey(const std::string& name_in_log) const {
-  return file.empty() ? decode_grey(*in_log, name_in_log) : decode_grey_file(file);
+GreyImage StoredImage::grey(const std::string& name_in_log, GreyRange& drive) const {
+  return file.empty() ? decode_grey(*in_log, name_in_log, drive) : decode_grey_file(file, drive);
 }
 
 std::optional<StoredImage> stored_image(const LogView& view, ExternalImages& images) {

@@ -18,8 +18,9 @@ struct StoredImage {
   std::shared_ptr<const LogImage> in_log;
 
   /// @param name_in_log  for messages about an image of the log
+  /// @param drive        what its images share, of 16 bits
   /// @throws InputError when it cannot be decoded
-  [[nodiscard]] GreyImage grey(const std::string& name_in_log) const;
+  [[nodiscard]] GreyImage grey(const std::string& name_in_log, GreyRange& drive) const;
   /// What it takes where it is stored [byte]; 0 when that cannot be told.
   [[nodiscard]] std::size_t bytes() const;
   [[nodiscard]] std::string name(const std::string& name_in_log) const;

@@ -3,6 +3,7 @@
 #include "import/stamps.h"
 
 #include "oneac/base/error.h"
+#include "oneac/base/input_file.h"
 
 #include <algorithm>
 #include <cctype>
@@ -92,12 +93,6 @@ class Fixes {
   std::vector<GpsRecord> fixes_;
   std::size_t passed_over_ = 0;
 };
-
-std::ifstream opened(const fs::path& file) {
-  std::ifstream stream(file, std::ios::binary);
-  if (!stream) throw InputError(file.string(), "cannot be opened", "check its name");
-  return stream;
-}
 
 /// Whether "$GPRMC,…*5A" has the checksum that it says; one without is believed.
 bool is_sound_sentence(const std::string& line) {
@@ -254,7 +249,7 @@ GpsRecord fix_of(const CsvRow& row, const Columns& columns) {
 }  // namespace
 
 std::vector<GpsRecord> read_nmea(const fs::path& file, ImportReport& report) {
-  std::ifstream stream = opened(file);
+  std::ifstream stream = open_input(file, "check its name");
   Fixes fixes(file, report);
   std::map<std::string, GgaFields> ggas;
   std::vector<RmcLine> rmcs;
@@ -289,7 +284,7 @@ std::vector<GpsRecord> read_nmea(const fs::path& file, ImportReport& report) {
 }
 
 std::vector<GpsRecord> read_gps_csv(const fs::path& file, ImportReport& report) {
-  std::ifstream stream = opened(file);
+  std::ifstream stream = open_input(file, "check its name");
   std::string line;
   std::getline(stream, line);
   if (line.compare(0, 3, "\xEF\xBB\xBF") == 0) line.erase(0, 3);

@@ -2,6 +2,7 @@
 #include "import/stamps.h"
 
 #include "oneac/base/error.h"
+#include "oneac/base/input_file.h"
 
 #include <expat.h>
 
@@ -140,8 +141,7 @@ void parse(XML_Parser parser, Track& track, const std::string& text, const fs::p
 
 std::vector<GpsRecord> read_gpx(const fs::path& file, ImportReport& report) {
   constexpr std::size_t kLongest = 1U << 30;  // what expat takes at once
-  std::ifstream stream(file, std::ios::binary);
-  if (!stream) throw InputError(file.string(), "cannot be opened", "check its name");
+  std::ifstream stream = open_input(file, "check its name");
   const std::string text(std::istreambuf_iterator<char>(stream), {});
   if (text.size() > kLongest) throw InputError(file.string(), "is too long for a track", "cut it");
   const std::unique_ptr<XML_ParserStruct, decltype(&XML_ParserFree)> parser(

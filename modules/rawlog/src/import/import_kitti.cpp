@@ -7,6 +7,7 @@
 
 #include "oneac/base/atomic_file.h"
 #include "oneac/base/error.h"
+#include "oneac/base/input_file.h"
 #include "oneac/base/median.h"
 #include "oneac/base/number_text.h"
 #include "oneac/geometry/camera_height.h"
@@ -94,7 +95,7 @@ std::vector<double> find_times(const fs::path& source, const Sequence& sequence,
 
 std::vector<std::string> lines_of(const fs::path& file) {
   std::vector<std::string> lines;
-  std::ifstream stream(file);
+  std::ifstream stream = open_input(file, "put the dataset's file there");
   for (std::string line; std::getline(stream, line);) {
     if (!line.empty() && line.back() == '\r') line.pop_back();
     if (!line.empty()) lines.push_back(line);

@@ -4,6 +4,7 @@
 #include "import/stamps.h"
 
 #include "oneac/base/error.h"
+#include "oneac/base/input_file.h"
 
 #include <algorithm>
 #include <fstream>
@@ -21,8 +22,7 @@ struct Listed {
 
 /// Lines "time name" or "time,name" with times since 1970, '#' before a comment.
 Listed read_list(const fs::path& file, const fs::path& folder) {
-  std::ifstream stream(file);
-  if (!stream) throw InputError(file.string(), "cannot be opened", "give a folder that has it");
+  std::ifstream stream = open_input(file, "give a folder that has it");
   Listed listed;
   std::size_t number = 0;
   for (std::string line; std::getline(stream, line);) {

@@ -5,6 +5,7 @@
 
 #include "oneac/base/atomic_file.h"
 #include "oneac/base/error.h"
+#include "oneac/base/input_file.h"
 #include "oneac/base/number_text.h"
 
 #include <dlfcn.h>
@@ -59,11 +60,8 @@ class SilentVideo {
 class Video {
  public:
   explicit Video(const fs::path& file) : file_(file) {
-    std::error_code ignored;
-    if (!fs::is_regular_file(file, ignored)) {
-      const bool folder = fs::is_directory(file, ignored);
-      throw InputError(file.string(), folder ? "is a folder" : "no such file",
-                       "give the file of a video");
+    if (const std::string fault = fault_of_file(file); !fault.empty()) {
+      throw InputError(file.string(), fault, "give the file of a video");
     }
     // Only what is in the file: a name like "img_%04d.png" is no list of images here.
     if (!capture_.open(file.string(), cv::CAP_FFMPEG)) {
@@ -111,8 +109,8 @@ class FrameWriter {
   void run(ImageDrive& drive) {
     Video video(options_.source);
     for (std::size_t frame = 0; video.advance(); ++frame) {
-      const double time =
-          options_.fps ? static_cast<double>(frame) / *options_.fps : video.time_s();
+      const double time = options_.fps ? static_cast<double>(frame) / *options_.fps
+                                       : time_of(video.time_s(), frame);
       require_later(time, frame);
       if (time < options_.from_s) continue;
       if (options_.to_s && time >= *options_.to_s) break;
@@ -124,10 +122,24 @@ class FrameWriter {
                      std::to_string(drive.images.size()) + " frames between --from and --to",
                      "give a part of the video with two frames at least");
   }
+  /// Frames at the end whose time had to be guessed.
+  [[nodiscard]] std::size_t paced() const { return paced_; }
 
  private:
+  /// OpenCV has no time, but zero, for the frames that the decoder still holds at the end of the
+  /// file, the last ones of every H.264 with B-frames: they follow at the pace of those before. In
+  /// an AVI it counts from what the decoder holds back at the start: from the first frame here.
+  [[nodiscard]] double time_of(double told_s, std::size_t frame) {
+    constexpr std::size_t kMostHeld = 16;  // of H.264 and H.265
+    if (frame == 0) begin_s_ = told_s;
+    if (told_s != 0.0 || frame < 2 || paced_ == kMostHeld) return told_s - begin_s_;
+    ++paced_;
+    return last_s_ + step_s_;
+  }
+
   void require_later(double time, std::size_t frame) {
     const bool later = frame == 0 || time > last_s_;
+    step_s_ = time - last_s_;
     last_s_ = time;
     if (later && std::isfinite(time)) return;
     throw InputError(options_.source.string() + ": frame " + std::to_string(frame),
@@ -150,7 +162,9 @@ class FrameWriter {
 
   const VideoImport& options_;
   fs::path folder_;
-  double last_s_ = 0.0;
+  double begin_s_ = 0.0;                ///< of the first frame
+  double last_s_ = 0.0, step_s_ = 0.0;  ///< of the frame before, and to it
+  std::size_t paced_ = 0;
 };
 
 std::vector<GpsRecord> read_gps(const VideoImport& options, ImportReport& report) {
@@ -216,11 +230,16 @@ ImportReport import_video(const VideoImport& options) {
   drive.convention = options.convention;
   std::vector<GpsRecord> gps = read_gps(options, report);
   const double start_s = start_of(options, gps, report);
-  FrameWriter(options).run(drive);
+  FrameWriter frames(options);
+  frames.run(drive);
   for (double& time : drive.times_s) time += start_s;
   drive.camera = given_calibration(options, drive.images.front(), report);
   report.notes.push_back(std::to_string(drive.images.size()) + " frames decoded to " +
                          drive.images.front().parent_path().string());
+  if (frames.paced() > 0) {
+    report.notes.push_back("FFmpeg gives the last " + std::to_string(frames.paced()) +
+                           " frames no time: they follow at the pace of those before");
+  }
   add_gps(std::move(gps), drive, report);
   for (fs::path& image : drive.images) image = fs::absolute(image);
   write_drive(drive, options.log, false, report);

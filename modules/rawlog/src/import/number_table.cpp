@@ -56,11 +56,7 @@ bool is_comment(const std::string& text) {
 
 std::vector<std::vector<double>> read_number_table(const std::filesystem::path& file,
                                                    std::size_t least_columns) {
-  if (const std::string fault = fault_of_file(file); !fault.empty()) {
-    throw InputError(file.string(), fault, "put the file there, or take it away");
-  }
-  std::ifstream stream(file);
-  if (!stream) throw InputError(file.string(), "cannot be opened", "check its permissions");
+  std::ifstream stream = open_input(file, "put the file there, or take it away");
   std::vector<std::vector<double>> rows;
   std::string text;
   for (std::size_t number = 1; std::getline(stream, text); ++number) {

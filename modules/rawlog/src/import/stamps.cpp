@@ -3,6 +3,7 @@
 #include "import/number_table.h"
 
 #include "oneac/base/error.h"
+#include "oneac/base/input_file.h"
 #include "oneac/base/median.h"
 #include "oneac/base/number_text.h"
 
@@ -220,8 +221,7 @@ std::optional<double> date_stamp(const std::string& text) {
 }
 
 std::vector<double> read_date_stamps(const fs::path& file) {
-  std::ifstream stream(file);
-  if (!stream) throw InputError(file.string(), "cannot be opened", "put the file there");
+  std::ifstream stream = open_input(file, "put the file there");
   std::vector<double> times;
   std::size_t number = 0;
   for (std::string line; std::getline(stream, line);) {

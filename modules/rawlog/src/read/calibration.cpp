@@ -7,6 +7,7 @@
 #include "read/calibration_file.h"
 
 #include "oneac/base/error.h"
+#include "oneac/base/input_file.h"
 
 #include <algorithm>
 #include <cctype>
@@ -110,9 +111,10 @@ const CalibrationEntry& choose(const Wanted& wanted, const CalibrationEntries& e
 PinholeCamera load_calibration(const std::string& file_and_section,
                                const std::string& preferred_side) {
   const Wanted wanted = split(file_and_section);
-  std::error_code ignored;
-  if (!fs::is_regular_file(wanted.file, ignored)) {
-    throw InputError(wanted.file, "no such calibration file", "give FILE or FILE:SECTION");
+  if (const std::string fault = fault_of_file(wanted.file); !fault.empty()) {
+    const bool missing = fault == "no such file";
+    throw InputError(wanted.file, missing ? "no such calibration file" : fault,
+                     "give FILE or FILE:SECTION");
   }
   const CalibrationEntries entries = calibrations_in(wanted.file);
   return choose(wanted, entries, preferred_side).read();

@@ -75,7 +75,7 @@ class RawlogSource::Impl {
   [[nodiscard]] bool is_selected(std::size_t index) const;
   [[nodiscard]] std::optional<FrameTicket> ticket_of(const Sight& sight,
                                                      const RawlogRecord& record);
-  void settle_size(const StoredImage& first, const std::string& ticket_name);
+  void settle_by(const StoredImage& first, const std::string& ticket_name);
   void add_right(const LogView& right, std::size_t record, Payload& payload);
   /// The image, and its mask where it has one.
   struct Picture {
@@ -83,6 +83,7 @@ class RawlogSource::Impl {
   };
   [[nodiscard]] Picture decoded(const StoredImage& image, const std::filesystem::path& mask,
                                 const std::string& ticket_name) const;
+  [[nodiscard]] std::string in_log(const std::string& ticket_name) const;
   [[nodiscard]] std::string where(std::size_t record) const;
   void complete_report();
 
@@ -100,7 +101,8 @@ class RawlogSource::Impl {
   SourceReport report_;
   std::size_t delivered_ = 0;
   std::optional<double> last_time_;
-  bool size_settled_ = false;
+  GreyRange grey_range_;
+  bool settled_ = false;  ///< what the first image decides on
 };
 
 RawlogSource::Impl::Impl(const SourceOptions& options)
@@ -125,6 +127,10 @@ CameraReaderOptions RawlogSource::Impl::reader_options() const {
     options.calibration = load_calibration(options_.calibration, chosen_.side_name);
   }
   return options;
+}
+
+std::string RawlogSource::Impl::in_log(const std::string& ticket_name) const {
+  return options_.log.string() + ": " + ticket_name;
 }
 
 std::string RawlogSource::Impl::where(std::size_t record) const {
@@ -209,19 +215,20 @@ std::optional<FrameTicket> RawlogSource::Impl::ticket_of(const Sight& sight,
   ticket.time_s = CameraReader::time_of(record.observation->timestamp, where(record.number));
   payload->T_vehicle_cam = camera_.mount(view);
   ticket.payload = std::move(payload);
-  if (!size_settled_)
-    settle_size(std::static_pointer_cast<const Payload>(ticket.payload)->image, ticket.name);
+  if (!std::exchange(settled_, true)) {
+    settle_by(std::static_pointer_cast<const Payload>(ticket.payload)->image, ticket.name);
+  }
   return ticket;
 }
 
-// Where the calibration leaves the size of the images open, the first one decides on it, whichever
-// is loaded first by the threads that share the work.
-void RawlogSource::Impl::settle_size(const StoredImage& first, const std::string& ticket_name) {
-  size_settled_ = true;
+// The first image decides on the grey levels in use and, where the calibration leaves it open, on
+// the size of the images, whichever is loaded first by the threads that share the work.
+void RawlogSource::Impl::settle_by(const StoredImage& first, const std::string& ticket_name) {
   const bool given = options_.camera_model || !options_.calibration.empty();
-  if (!given && chosen_.calibration.ncols != 0) return;
   try {
-    static_cast<void>(decoded(first, {}, ticket_name));
+    GreyImage stored = first.grey(in_log(ticket_name), grey_range_);
+    if (!given && chosen_.calibration.ncols != 0) return;
+    static_cast<void>(camera_.rectify(std::move(stored), first.name(in_log(ticket_name))));
   } catch (const InputError&) {  // load() says it
   }
 }
@@ -230,13 +237,13 @@ void RawlogSource::Impl::settle_size(const StoredImage& first, const std::string
 RawlogSource::Impl::Picture RawlogSource::Impl::decoded(const StoredImage& image,
                                                         const std::filesystem::path& mask,
                                                         const std::string& ticket_name) const {
-  const std::string in_log = options_.log.string() + ": " + ticket_name;
   Picture picture;
-  GreyImage stored = image.grey(in_log);
+  GreyRange drive = grey_range_;  // of its own: several threads load
+  GreyImage stored = image.grey(in_log(ticket_name), drive);
   if (!mask.empty()) {
     picture.mask = camera_.rectify(read_mask(mask, stored.view(), ticket_name), mask.string());
   }
-  picture.image = camera_.rectify(std::move(stored), image.name(in_log));
+  picture.image = camera_.rectify(std::move(stored), image.name(in_log(ticket_name)));
   return picture;
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <fstream>
 #include <string>
 
 namespace oneac {
@@ -9,6 +10,11 @@ namespace oneac {
 /// the system's reason; "" for a regular file and for a link to one. Opens nothing: a pipe without
 /// a writer would hold the program.
 [[nodiscard]] std::string fault_of_file(const std::filesystem::path& path);
+
+/// Opens a file for reading, byte by byte.
+/// @param cure  what the user can do when it is not there or no file
+/// @throws InputError naming the path and fault_of_file(), or that it cannot be opened
+[[nodiscard]] std::ifstream open_input(const std::filesystem::path& path, const std::string& cure);
 
 /// A number that stands for the content of a file (64 bits in hexadecimal), for telling builds
 /// apart, not against forgery; "" when the file cannot be read.

@@ -24,6 +24,24 @@ struct RelativePoseRow {
   std::optional<double> sigma_length;  ///< [m] 1σ of the length; empty where not metric
 };
 
+/// The row of a front end's step, of the fields that both have.
+/// @param sigma_length  [m] 1σ of the step's length; empty where not metric
+template <class Step>
+[[nodiscard]] RelativePoseRow row_of(const Step& step, std::optional<double> sigma_length) {
+  RelativePoseRow row;
+  row.index1 = step.index1;
+  row.index2 = step.index2;
+  row.t1 = step.time1;
+  row.t2 = step.time2;
+  row.T_2_1 = step.pose;
+  row.metric = step.metric;
+  row.inliers = static_cast<int>(step.inliers);
+  row.acs = static_cast<int>(step.acs);
+  row.status = to_string(step.status);
+  row.sigma_length = sigma_length;
+  return row;
+}
+
 /// What one pair cost: a row of timings.csv, thread CPU time of each stage [ms].
 struct TimingRow {
   std::size_t index1 = 0;

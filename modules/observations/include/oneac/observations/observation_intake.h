@@ -3,6 +3,7 @@
 #include "oneac/base/image.h"
 #include "oneac/geometry/camera_frame.h"
 #include "oneac/observations/camera_reader.h"
+#include "oneac/observations/image_decoding.h"
 #include "oneac/observations/pose_watch.h"
 #include "oneac/observations/repeat_watch.h"
 #include "oneac/observations/sensor_readings.h"
@@ -101,7 +102,7 @@ class ObservationIntake {
   [[nodiscard]] Intake take_image(const mrpt::obs::CObservation& observation,
                                   const ImageMasks& masks);
   [[nodiscard]] Intake read(const Sight& sight, const mrpt::obs::CObservation& observation);
-  void add_pixels(const Sight& sight, const std::string& where, CameraFrame& frame) const;
+  void add_pixels(const Sight& sight, const std::string& where, CameraFrame& frame);
   [[nodiscard]] bool is_followed(const CameraView& view) const;
   [[nodiscard]] Intake pass(PassedOver reason);
 
@@ -109,6 +110,7 @@ class ObservationIntake {
   std::optional<CameraReader> reader_;
   PoseWatch poses_;
   RepeatWatch repeats_;
+  GreyRange grey_range_;
   std::string camera_;  ///< CameraView::name() of the one that is followed
   std::optional<std::string> imu_, gps_;
   SpeedOverGround speeds_;

@@ -9,6 +9,7 @@
 #include <Eigen/Core>
 
 #include <cstddef>
+#include <cstdint>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -31,6 +32,16 @@ using PoseSet = SolutionSet<PlanePose, 10>;
 using PlanarPoseSet = SolutionSet<PlanarPose, 2>;
 using BatchSolver = std::size_t (*)(const AcArrays&, const PlanarPoseArrays&, SimdLevel);
 
+/// Where poses go, `room` for each sample: R row by row (9), t (3), n (3). What a sample leaves of
+/// its room becomes no motion: the identity, zero, zero. The arrays must not overlap.
+struct PoseRows {
+  double* R;
+  double* t;
+  double* n;
+  std::int64_t* count;  ///< of each sample; at most `room`, what a set holds beyond is left out
+  std::size_t room;
+};
+
 /// A solver's functions in the forms that its callers walk. No form allocates.
 struct SolverFunctions {
   int max_candidates;                         ///< capacity of its solution set
@@ -39,9 +50,9 @@ struct SolverFunctions {
   /// Poses in the row's unit. Of matrices those motions that have most of the sample before both
   /// cameras. `n` is the plane's normal, and means nothing where the solver knows no plane.
   PoseSet (*poses)(AcSpan sample);
-  /// `poses` into room for PoseSet::kCapacity of them: how many. For a hundred thousand samples in
-  /// a row, whose sets are mostly room that is made ready in vain.
-  std::size_t (*put)(AcSpan sample, PlanePose* out);
+  /// `poses` of many samples, one after the other in `acs`, written where they shall be: a hundred
+  /// thousand sets would be mostly room that is made ready in vain.
+  void (*rows)(AcSpan acs, std::size_t sample, const PoseRows& out);
   PoseSet (*least_squares)(AcSpan acs);  ///< `poses` of any number ≥ sample; null: no such form
   PlanarPoseSet (*planar)(const AffineCorrespondence& ac);  ///< null: no planar motion from one
 };

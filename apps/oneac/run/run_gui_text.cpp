@@ -1,0 +1,42 @@
+#include "run_gui_text.h"
+
+#include "oneac/base/number_text.h"
+#include "oneac/evaluation/trajectory_errors.h"
+
+#include <algorithm>
+
+namespace oneac::app {
+namespace {
+
+double length_of(const std::vector<FrameResult>& frames) {
+  std::vector<Eigen::Isometry3d> poses;
+  for (const FrameResult& frame : frames) poses.push_back(frame.T_first_cam);
+  return path_length(poses);
+}
+
+// A standing step has zero metres without any scale.
+bool travelled_in_metres(const FrameResult& frame) {
+  return frame.step && frame.step->metric && frame.step->status == StepStatus::kOk;
+}
+
+std::string about(const StepResult& step) {
+  if (step.status == StepStatus::kPredicted) return "last step: not seen, the motion goes on";
+  if (step.status == StepStatus::kNoMotion) return "last step: standing";
+  if (!step.metric) return "last step: not in metres";
+  return "last step: in metres, 1 sigma " + fixed_text(100.0 * step.length_sigma, 1) + " %";
+}
+
+}  // namespace
+
+std::vector<std::string> gui_lines(const std::vector<FrameResult>& frames) {
+  if (frames.empty()) return {};
+  const double seconds = frames.back().time_s - frames.front().time_s;
+  const bool metres = std::any_of(frames.begin(), frames.end(), travelled_in_metres);
+  std::vector<std::string> lines{
+      "frame " + std::to_string(frames.size()) + ", " + fixed_text(seconds, 1) + " s",
+      "distance " + fixed_text(length_of(frames), 1) + (metres ? " m" : " units, no metres yet")};
+  if (frames.back().step) lines.push_back(about(*frames.back().step));
+  return lines;
+}
+
+}  // namespace oneac::app
