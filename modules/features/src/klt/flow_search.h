@@ -20,9 +20,10 @@ struct FlowImages {
   Workers& workers;
 };
 
-/// Finds all tracks of the first image in the second: old tracks first, from their last motion;
-/// then fresh ones, from their neighbours' motion and from the hint; then once more what was not
-/// found, from the neighbours found meanwhile. One match per track, in their order.
+/// Finds all tracks of the first image in the second: a sample of the old tracks first, from their
+/// last motion; it corrects the motion expected, which foretells the other old ones; then fresh
+/// ones, from their neighbours' motion and from the hint; then once more what was not seen, from
+/// the neighbours found meanwhile. One match per track, in their order.
 [[nodiscard]] std::vector<std::optional<PatchMatch>> search_tracks(
     const std::vector<KltTrack>& tracks, const FlowImages& images);
 /// Once more the tracks that have no match yet, from the motion of the nearest that have one.

@@ -142,9 +142,17 @@ std::optional<PatchMatch> PatchFlow::find(const Eigen::Vector2d& u1,
                                           const std::vector<FlowGuess>& guesses,
                                           const PatchMemory& memory) {
   state_.fill(0);
+  fine_state_ = State::kUnmade;
+  has_seen_ = false;
   Found best;
   const FlowGuess* origin = nullptr;
   for (const FlowGuess& guess : guesses) {
+    if (guess.level == 0) {
+      const Alignment alignment = aligned(u1, guess.warp, memory);
+      has_seen_ = is_there(alignment, guess.warp);
+      if (!has_seen_) continue;
+      return alignment.good ? std::optional(alignment.match) : std::nullopt;
+    }
     const auto found = descend(u1, guess);
     if (!found || found->zncc <= best.zncc) continue;
     best = *found;
@@ -152,19 +160,44 @@ std::optional<PatchMatch> PatchFlow::find(const Eigen::Vector2d& u1,
     if (best.zncc > kFits) break;
   }
   if (origin == nullptr || best.zncc < kDoubtful) return std::nullopt;
+  has_seen_ = true;
   if (!is_foretold(*origin, best.warp) && !returns(u1, *origin, best.warp)) return std::nullopt;
-  return refine(u1, best.warp, memory);
+  const Alignment alignment = aligned(u1, best.warp, memory);
+  return alignment.good ? std::optional(alignment.match) : std::nullopt;
+}
+
+bool PatchFlow::is_there(const Alignment& alignment, const PatchWarp& foretold) const {
+  const Eigen::Vector2d off = alignment.match.warp.centre - foretold.centre;
+  return alignment.ended && off.norm() <= options_.forward_backward_px &&
+         alignment.match.quality.zncc >= kDoubtful;
+}
+
+const AnchoredPatch* PatchFlow::fine_patch(const Eigen::Vector2d& u1, const PatchMemory& memory) {
+  if (memory.patch != nullptr) return memory.patch;
+  if (fine_state_ == State::kUnmade) {
+    const bool made = anchor_adapted(first_, u1, fine_, memory.window);
+    fine_state_ = made ? State::kUsable : State::kUnusable;
+  }
+  return fine_state_ == State::kUsable ? &fine_ : nullptr;
 }
 
 bool PatchFlow::is_foretold(const FlowGuess& guess, const PatchWarp& found) const {
-  return guess.level == 1 &&
+  return guess.foretells &&
          (found.centre - guess.warp.centre).norm() <= options_.forward_backward_px;
 }
 
 std::optional<PatchMatch> PatchFlow::refine(const Eigen::Vector2d& u1, const PatchWarp& start,
                                             const PatchMemory& memory) {
+  fine_state_ = State::kUnmade;
+  const Alignment alignment = aligned(u1, start, memory);
+  return alignment.good ? std::optional(alignment.match) : std::nullopt;
+}
+
+PatchFlow::Alignment PatchFlow::aligned(const Eigen::Vector2d& u1, const PatchWarp& start,
+                                        const PatchMemory& memory) {
   AnchoredPatch patch;
-  PatchMatch match{start, {}};
+  Alignment result{{start, {}}};
+  PatchMatch& match = result.match;
   if (!memory.knows_shape && first_.levels.size() > 1 &&
       anchor_patch(first_, 1, coarse_affine_window(), u1, patch)) {
     PatchWarp warp = start;
@@ -173,19 +206,15 @@ std::optional<PatchMatch> PatchFlow::refine(const Eigen::Vector2d& u1, const Pat
       match.warp = warp;
     }
   }
-  const AnchoredPatch* fine = memory.patch;
-  if (fine == nullptr) {
-    if (!anchor_adapted(first_, u1, patch, memory.window)) return std::nullopt;
-    fine = &patch;
-  }
+  const AnchoredPatch* const fine = fine_patch(u1, memory);
+  if (fine == nullptr) return result;
   match.window = fine->next_window;
-  if (!align_affine(*fine, second_, true, match.warp, match.quality)) return std::nullopt;
-  const bool good = match.quality.zncc >= options_.min_zncc &&
-                    match.quality.affine_sigma <= options_.max_affine_sigma &&
-                    (match.warp.centre - start.centre).norm() <= kMaxCorrection &&
-                    (match.warp.M - start.M).norm() <= kMaxDeformation;
-  if (!good) return std::nullopt;
-  return match;
+  result.ended = align_affine(*fine, second_, true, match.warp, match.quality);
+  result.good = result.ended && match.quality.zncc >= options_.min_zncc &&
+                match.quality.affine_sigma <= options_.max_affine_sigma &&
+                (match.warp.centre - start.centre).norm() <= kMaxCorrection &&
+                (match.warp.M - start.M).norm() <= kMaxDeformation;
+  return result;
 }
 
 }  // namespace oneac::internal
