@@ -117,7 +117,8 @@ Eigen::Matrix<double, 6, 6> two_view_information(const TwoViewTerms& terms,
   for (std::size_t i = 0; i < terms.acs.size(); ++i) {
     const AffineCorrespondence& ac = terms.acs[i];
     if (terms.with_point[i]) {
-      points.push_back(linearised(point_term(E, ac, terms.noise[i]), pose, basis, terms.loss_sigmas));
+      points.push_back(
+          linearised(point_term(E, ac, terms.noise[i]), pose, basis, terms.loss_sigmas));
     }
     if (terms.with_affine[i]) {
       affinities.push_back(

@@ -11,8 +11,8 @@ namespace oneac {
 /// What the residuals of one pair are made of. Borrows; lives within one call.
 struct TwoViewTerms {
   const std::vector<AffineCorrespondence>& acs;
-  const std::vector<bool>& with_point;   ///< these contribute a point term
-  const std::vector<bool>& with_affine;  ///< these contribute an affine term
+  const std::vector<bool>& with_point;     ///< these contribute a point term
+  const std::vector<bool>& with_affine;    ///< these contribute an affine term
   std::vector<CorrespondenceNoise> noise;  ///< one per correspondence
   double loss_sigmas;
 };
