@@ -8,21 +8,23 @@ namespace {
 using Lines = std::vector<std::string>;
 
 /// The next frame of a drive straight ahead, 1.25 m or units on and a tenth of a second later.
-void drive_on(std::vector<FrameResult>& frames, bool metric, StepStatus status = StepStatus::kOk) {
-  FrameResult& frame = frames.emplace_back();
-  const double i = static_cast<double>(frames.size() - 1);
+void drive_on(FrameStore& frames, bool metric, StepStatus status = StepStatus::kOk) {
+  FrameResult frame;
+  const auto i = static_cast<double>(frames.size());
   frame.time_s = 1.26e9 + 0.1 * i;
   frame.T_first_cam.translation().z() = 1.25 * i;
-  if (frames.size() == 1) return;
-  StepResult step;
-  step.metric = metric;
-  step.status = status;
-  step.length_sigma = 0.0288;
-  frame.step = step;
+  if (!frames.empty()) {
+    StepResult step;
+    step.metric = metric;
+    step.status = status;
+    step.length_sigma = 0.0288;
+    frame.step = step;
+  }
+  frames.push_back(frame);
 }
 
 TEST(GuiText, SaysFrameDistanceAndWhetherItIsInMetres) {
-  std::vector<FrameResult> frames;
+  FrameStore frames;
   EXPECT_EQ(gui_lines(frames), Lines{});
   drive_on(frames, true);
   EXPECT_EQ(gui_lines(frames), (Lines{"frame 1, 0.0 s", "distance 0.0 units, no metres yet"}));
@@ -35,7 +37,7 @@ TEST(GuiText, SaysFrameDistanceAndWhetherItIsInMetres) {
 }
 
 TEST(GuiText, SaysThatTheCarStoodOrNothingWasSeen) {
-  std::vector<FrameResult> frames;
+  FrameStore frames;
   drive_on(frames, true);
   drive_on(frames, true, StepStatus::kNoMotion);
   EXPECT_EQ(gui_lines(frames)[1], "distance 1.2 units, no metres yet");

@@ -8,7 +8,7 @@
 namespace oneac::app {
 namespace {
 
-double length_of(const std::vector<FrameResult>& frames) {
+double length_of(const FrameStore& frames) {
   std::vector<Eigen::Isometry3d> poses;
   for (const FrameResult& frame : frames) poses.push_back(frame.T_first_cam);
   return path_length(poses);
@@ -28,14 +28,15 @@ std::string about(const StepResult& step) {
 
 }  // namespace
 
-std::vector<std::string> gui_lines(const std::vector<FrameResult>& frames) {
+std::vector<std::string> gui_lines(const FrameStore& frames) {
   if (frames.empty()) return {};
-  const double seconds = frames.back().time_s - frames.front().time_s;
+  const FrameResult last = frames.back();
+  const double seconds = last.time_s - frames.front().time_s;
   const bool metres = std::any_of(frames.begin(), frames.end(), travelled_in_metres);
   std::vector<std::string> lines{
       "frame " + std::to_string(frames.size()) + ", " + fixed_text(seconds, 1) + " s",
       "distance " + fixed_text(length_of(frames), 1) + (metres ? " m" : " units, no metres yet")};
-  if (frames.back().step) lines.push_back(about(*frames.back().step));
+  if (last.step) lines.push_back(about(*last.step));
   return lines;
 }
 

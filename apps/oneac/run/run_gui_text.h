@@ -1,6 +1,6 @@
 #pragma once
 
-#include "oneac/frontend/frame_result.h"
+#include "record_store.h"
 
 #include <string>
 #include <vector>
@@ -9,6 +9,6 @@ namespace oneac::app {
 
 /// What the window says of the drive so far, a line each: frame and time, distance, whether the
 /// last step is in metres. ASCII, which is what MRPT's fonts draw.
-[[nodiscard]] std::vector<std::string> gui_lines(const std::vector<FrameResult>& frames);
+[[nodiscard]] std::vector<std::string> gui_lines(const FrameStore& frames);
 
 }  // namespace oneac::app
