@@ -1,10 +1,11 @@
 #!/usr/bin/python3
 """Drives of other kinds: does what is called metric lie within its sigma?
 
-Usage: nasty_drives.py ONEAC FOLDER [--kitti DIR] [--import-flags=FLAGS] [NAME ...]
+Usage: nasty_drives.py ONEAC FOLDER [--kitti DIR] [--import-flags=FLAGS] [--drawn COUNT] [NAME ...]
 
 Simulated drives of other seeds, cameras, roads and lights, and, with --kitti, 200 images of a drive
-in KITTI's layout (image_0, calib.txt, times.txt, poses.txt) made nastier. Prints per drive: metric pairs, their way in
+in KITTI's layout (image_0, calib.txt, times.txt, poses.txt) made nastier, with --drawn by several
+changes at once that are drawn from a number. Prints per drive: metric pairs, their way in
 metres against the true one, wrong directions among pairs called ok (beyond 15 deg), the share of
 metric pairs within 2 sigma and the number beyond 5 sigma. Needs python3-numpy and, for --kitti,
 python3-opencv. Takes about ten seconds a drive; drives are kept in FOLDER and used again.
@@ -12,6 +13,7 @@ python3-opencv. Takes about ten seconds a drive; drives are kept in FOLDER and u
 import argparse
 import csv
 import pathlib
+import random
 import shutil
 import subprocess
 
@@ -413,6 +415,52 @@ NASTIER = {
     'yaw-10-pitch-8': turned([8, 10, 0]),
 }
 
+# Of which --drawn takes one each, and of the last kind as often two.
+ORDERS = ['plain'] * 6 + ['reverse', 'every-3rd', 'dropped', 'twice', 'frozen', 'stutter', 'swapped',
+                          'jitter', 'gap', 'there-and-back', 'stamps-2-too-slow']
+CAMERAS = ['plain'] * 3 + ['half', 'third', 'focal+5%', 'focal-3%', 'roll-3', 'pitch-8',
+                           'pitch+5-down', 'yaw-10', 'shaking', 'potholes', 'bumped-pitch',
+                           'bumped-yaw', 'mirror', 'upper-260-rows', 'middle', 'yaw-10-pitch-8',
+                           'pitch-15', 'zoomed']
+PICTURES = ['night', 'fog', 'fog-noise', 'jpeg-15', 'blurred', 'exposure', 'text', 'bonnet', 'dirt',
+            'snow', 'own-shadow', 'headlights', 'glare', 'vignette', 'dead-pixels', 'interlaced',
+            'rolled-shutter', 'letterbox', 'black', 'drops']
+
+
+def drawn_names(number):
+    r = random.Random(number)
+    return [r.choice(ORDERS), r.choice(CAMERAS), r.choice(PICTURES),
+            r.choice(PICTURES + ['plain'] * 12)]
+
+
+def after(first, then):
+    return lambda image, k: then(first(image, k).copy(), k)
+
+
+def draw(scene, number):
+    """Changes order, camera and, one upon the other, pictures."""
+    scene.rng = np.random.RandomState(number + 100)
+    order, camera, *pictures = drawn_names(number)
+    NASTIER[order](scene)
+    NASTIER[camera](scene)
+    for name in pictures:
+        before = scene.change
+        sample = before(scene.cv2.imread(str(scene.files[0]), 0), 0)
+        scene.height, scene.width = sample.shape
+        scene.change = lambda image, k: image
+        NASTIER[name](scene)
+        scene.change = after(before, scene.change)
+
+
+def changes(asked):
+    """Of real images: (folder, what is said of it, change of a scene)."""
+    for number in range(asked.drawn):
+        yield str(number), ' '.join([str(number), *drawn_names(number)]), \
+            lambda scene, number=number: draw(scene, number)
+    for name, change in NASTIER.items() if not asked.drawn else ():
+        if not asked.names or name in asked.names:
+            yield name, name, change
+
 
 def write_kitti(scene, folder):
     (folder / 'image_0').mkdir(parents=True)
@@ -482,6 +530,7 @@ def main():
     parser.add_argument('names', nargs='*')
     parser.add_argument('--kitti', type=pathlib.Path)
     parser.add_argument('--import-flags', default=KITTI_FLAGS)
+    parser.add_argument('--drawn', type=int, default=0, help='drives of changes drawn at random')
     asked = parser.parse_intermixed_args()
     for name, flags in SIMULATED.items():
         drive = asked.folder / name
@@ -491,10 +540,8 @@ def main():
             call(asked.oneac, 'simulate', '-o', drive, '--no-progress', *flags.split())
         report(name, asked.oneac, drive / 'simulated.rawlog', drive / 'poses.txt',
                asked.folder / f'{name}-run')
-    for name, change in NASTIER.items() if asked.kitti else ():
-        drive = asked.folder / name
-        if asked.names and name not in asked.names:
-            continue
+    for folder, name, change in changes(asked) if asked.kitti else ():
+        drive = asked.folder / folder
         if not (drive / 'poses.txt').exists():
             shutil.rmtree(drive, ignore_errors=True)
             scene = Scene(asked.kitti)
@@ -503,7 +550,7 @@ def main():
             call(asked.oneac, 'import', 'kitti', drive, '-o', drive / 'drive.rawlog',
                  *asked.import_flags.split())
         report(name, asked.oneac, drive / 'drive.rawlog', drive / 'poses.txt',
-               asked.folder / f'{name}-run')
+               asked.folder / f'{folder}-run')
 
 
 if __name__ == '__main__':
