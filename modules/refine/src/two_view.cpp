@@ -221,14 +221,15 @@ void RefineOptions::validate() const {
 RefineResult refine_two_view(const std::vector<AffineCorrespondence>& acs,
                              const std::vector<bool>& inliers, const RelativePose& start,
                              double focal_px, const RefineOptions& options,
-                             const DirectionPrior& prior, const std::vector<double>& point_sigmas) {
+                             const KnownOfPair& known) {
   options.validate();
   require(focal_px > 0.0 && std::isfinite(focal_px), "refine.focal_px", focal_px,
           "positive and finite");
   require(inliers.size() == acs.size(), "refine.inliers", static_cast<double>(inliers.size()),
           "one per correspondence");
-  require(point_sigmas.empty() || point_sigmas.size() == acs.size(), "refine.point_sigmas",
-          static_cast<double>(point_sigmas.size()), "one per correspondence, or none");
+  require(known.point_sigmas.empty() || known.point_sigmas.size() == acs.size(),
+          "refine.point_sigmas", static_cast<double>(known.point_sigmas.size()),
+          "one per correspondence, or none");
   RefineResult result;
   result.affine_consistent.assign(acs.size(), false);
   if (start.is_finite()) result.pose = start;
@@ -239,7 +240,8 @@ RefineResult refine_two_view(const std::vector<AffineCorrespondence>& acs,
   }
   const double length = start.t.norm();
   const RelativePose unit{start.R, start.t / length};
-  std::vector<CorrespondenceNoise> noise = noise_of(acs.size(), point_sigmas, focal_px, options);
+  std::vector<CorrespondenceNoise> noise =
+      noise_of(acs.size(), known.point_sigmas, focal_px, options);
   result.affine_consistent =
       affine_consistent(acs, inliers, unit, noise, options.affine_gate_sigmas);
   result.affine_count = count_true(result.affine_consistent);
@@ -252,7 +254,7 @@ RefineResult refine_two_view(const std::vector<AffineCorrespondence>& acs,
     result.status = RefineStatus::kNotFinite;
     return result;
   }
-  minimise(terms, unit, prior, options.max_iterations, result);
+  minimise(terms, unit, known.direction, options.max_iterations, result);
   if (result.usable()) result.pose.t *= length;
   return result;
 }

@@ -189,7 +189,7 @@ TEST(RefineTwoView, ADirectionThatIsExpectedCountsAsItsSigmaSays) {
       (scene.truth.t.normalized() + Eigen::Vector3d(0.2, 0, 0)).normalized();
   const auto off = [&](double sigma) {
     const RefineResult result =
-        refine_two_view(scene.acs, all, scene.truth, kFocal, points_alone(), {aside, sigma});
+        refine_two_view(scene.acs, all, scene.truth, kFocal, points_alone(), {{aside, sigma}, {}});
     EXPECT_TRUE(result.usable());
     return direction_error(result.pose.t, aside);
   };
@@ -223,7 +223,7 @@ TEST(RefineTwoView, PointsThatTellTheirNoiseCountByIt) {
     const std::vector<bool> all(scene.acs.size(), true);
     const auto error = [&](const std::vector<double>& of_points) {
       const RefineResult result =
-          refine_two_view(scene.acs, all, scene.truth, kFocal, points_alone(), {}, of_points);
+          refine_two_view(scene.acs, all, scene.truth, kFocal, points_alone(), {{}, of_points});
       return direction_error(result.pose.t, scene.truth.t);
     };
     alike += error({});
@@ -237,9 +237,9 @@ TEST(RefineTwoView, APointWhoseNoiseIsUnknownCountsAsUsual) {
   const auto scene = test::street(generator, 60, {0.2, 0.05});
   const std::vector<bool> all(scene.acs.size(), true);
   const std::vector<double> unknown(scene.acs.size(), 0.0);
-  const RefineResult told = refine_two_view(scene.acs, all, scene.truth, kFocal, {}, {}, unknown);
+  const RefineResult told = refine_two_view(scene.acs, all, scene.truth, kFocal, {}, {{}, unknown});
   test::expect_same_pose(told.pose, refine(scene, scene.truth).pose);
-  EXPECT_THROW((void)refine_two_view(scene.acs, all, scene.truth, kFocal, {}, {}, {0.001}),
+  EXPECT_THROW((void)refine_two_view(scene.acs, all, scene.truth, kFocal, {}, {{}, {0.001}}),
                std::invalid_argument);
 }
 

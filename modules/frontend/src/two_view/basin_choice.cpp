@@ -108,10 +108,10 @@ TwoView in_likelier_basin(TwoView found, const std::vector<bool>& told, const Co
   const std::vector<AffineCorrespondence> acs = affine_parts(found.pair);
   const std::vector<double> sigmas = point_sigmas(found.pair);
   const RefineResult here =
-      refine_two_view(acs, told, found.pose, found.focal_px, refine, {}, sigmas);
+      refine_two_view(acs, told, found.pose, found.focal_px, refine, {{}, sigmas});
   const RefineResult there =
       refine_two_view(acs, told, {found.pose.R, course.direction}, found.focal_px, refine,
-                      {course.direction, course.sigma}, sigmas);
+                      {{course.direction, course.sigma}, sigmas});
   if (!here.usable() || !there.usable()) return found;
   const Basin free = basin_of(here, surprise(here.pose.t, course));
   found.kept_on_course = !is_drivable(here.pose.t, course);

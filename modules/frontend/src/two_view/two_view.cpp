@@ -153,7 +153,7 @@ TwoView TwoViewEstimator::refined(TwoView start) const {
   {
     const StageTimer timer(start.refine_ms);
     result = refine_two_view(affine_parts(start.pair), start.inliers, start.pose, start.focal_px,
-                             refine_, {}, point_sigmas(start.pair));
+                             refine_, {{}, point_sigmas(start.pair)});
   }
   if (!result.usable()) return start;
   start.pose = result.pose;

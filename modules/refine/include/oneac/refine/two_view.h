@@ -87,6 +87,15 @@ struct DirectionPrior {
   double sigma = 0.0;                                   ///< [rad] 1σ; 0: nothing is expected
 };
 
+/// What is known of a pair beside its correspondences.
+struct KnownOfPair {
+  DirectionPrior direction = {};  ///< adds ½ |t̂ − direction|² / σ² to the cost, its curvature to
+                                  ///< the information
+  /// 1σ of a coordinate of every correspondence [normalised], 0 where unknown; empty:
+  /// point_noise_px holds for all
+  std::vector<double> point_sigmas = {};
+};
+
 /// Two-view bundle adjustment over affine-consistent inliers, structure eliminated.
 ///
 /// Minimises, over the five degrees of freedom of (R, t/|t|), the Sampson distances of all inliers
@@ -101,11 +110,7 @@ struct DirectionPrior {
 /// @param acs      normalised correspondences
 /// @param inliers  one flag per correspondence
 /// @param start    X2 = R X1 + t; the length of t is kept, whether metric or one
-/// @param prior    adds ½ |t̂ − direction|² / σ² to the cost and its curvature to the information
 /// @param focal_px turns point_noise_px into normalised units
-/// @param point_sigmas  1σ of a coordinate of every correspondence [normalised], zero where
-/// unknown;
-///                 empty: point_noise_px holds for all
 /// @throws std::invalid_argument on invalid options, focal_px ≤ 0, flags or sigmas of another
 /// number
 /// @cost   1 to 2 ms for 600 inliers, twice that with affinities; one thread,
@@ -114,7 +119,6 @@ struct DirectionPrior {
                                            const std::vector<bool>& inliers,
                                            const RelativePose& start, double focal_px,
                                            const RefineOptions& options,
-                                           const DirectionPrior& prior = {},
-                                           const std::vector<double>& point_sigmas = {});
+                                           const KnownOfPair& known = {});
 
 }  // namespace oneac
