@@ -30,8 +30,8 @@ double lasting_sigma(const ScaleOptions& options) {
 
 ScaleFilter::ScaleFilter(const ScaleOptions& options)
     : options_(options),
-      by_wheels_(options.source == "wheels"),
-      lasting_variance_(lasting_sigma(options) * lasting_sigma(options)) {}
+      lasting_variance_(lasting_sigma(options) * lasting_sigma(options)),
+      by_wheels_(options.source == "wheels") {}
 
 double ScaleFilter::drift(double way, double carried_variance, double turn) {
   const double before = variance_;

@@ -56,17 +56,17 @@ class ScaleFilter {
   [[nodiscard]] double variance_of_innovation(double noise) const;
 
   ScaleOptions options_;
-  bool by_wheels_;
   double lasting_variance_;  ///< of the error that the road's, or the wheels', measurements share
-  bool known_ = false;
-  double variance_ = 0.0;        ///< of the state
-  double error_ = 0.0;           ///< that the road's measurements share now, ...
+  double variance_ = 0.0;    ///< of the state
+  double error_ = 0.0;       ///< that the road's measurements share now, ...
   double error_variance_ = 0.0;  ///< ... its variance ...
   double covariance_ = 0.0;      ///< ... and its covariance with the state
-  int refused_ = 0;              ///< in a row
-  double refused_way_ = 0.0;     ///< [m] since the first of them
-  bool began_anew_ = false;
+  double refused_way_ = 0.0;     ///< [m] since the first of those refused
   WheelConsensus wheels_;
+  int refused_ = 0;  ///< in a row
+  bool by_wheels_;
+  bool known_ = false;
+  bool began_anew_ = false;
   bool doubted_ = false;  ///< wheels are not of one opinion, or of another one
 };
 
