@@ -76,8 +76,7 @@ TwoView refused(TwoView seen, const RelativePose& last_motion) {
   seen.pose = last_motion;
   if (seen.pose.t.norm() > 0.0) seen.pose.t.normalize();
   seen.covariance.setZero();
-  seen.inliers.clear();
-  seen.inlier_count = 0;
+  seen.set_inliers({});
   return seen;
 }
 
@@ -88,14 +87,12 @@ TwoView resting(TwoView seen) {
   seen.status = StepStatus::kNoMotion;
   seen.pose = {};
   seen.covariance.setZero();
-  seen.inliers.assign(seen.pair.size(), false);
-  for (std::size_t i = 0; i < seen.pair.size(); ++i) {
-    const Correspondence& ac = seen.pair.correspondences[i];
+  std::vector<bool> inliers;
+  for (const Correspondence& ac : seen.pair.correspondences) {
     const double sigma = std::max(ac.point_sigma, kPointSigma_px / seen.focal_px);
-    seen.inliers[i] = (ac.x2 - ac.x1).norm() <= kSame * sigma;
+    inliers.push_back((ac.x2 - ac.x1).norm() <= kSame * sigma);
   }
-  seen.inlier_count =
-      static_cast<std::size_t>(std::count(seen.inliers.begin(), seen.inliers.end(), true));
+  seen.set_inliers(std::move(inliers));
   return seen;
 }
 

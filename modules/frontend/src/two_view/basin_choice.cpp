@@ -78,9 +78,7 @@ TwoView moved_to(const Basin& basin, TwoView found, const std::vector<AffineCorr
                  const std::vector<bool>& told, double threshold_px) {
   found.pose = basin.pose;
   found.covariance = basin.covariance;
-  found.inliers = inliers_of(acs, told, basin.pose, threshold_px / found.focal_px);
-  found.inlier_count =
-      static_cast<std::size_t>(std::count(found.inliers.begin(), found.inliers.end(), true));
+  found.set_inliers(inliers_of(acs, told, basin.pose, threshold_px / found.focal_px));
   return found;
 }
 

@@ -37,16 +37,16 @@ std::vector<bool> below_the_sky(const TrackedPair& pair, const Eigen::Matrix3d& 
 TwoView with_the_sky(TwoView seen, const std::vector<bool>& told, double threshold_px) {
   const bool travels = seen.pose.t.norm() > 0.0;
   const Eigen::Matrix3d E = essential_matrix(seen.pose);
-  for (std::size_t i = 0; i < seen.inliers.size(); ++i) {
+  std::vector<bool> inliers = seen.inliers;
+  for (std::size_t i = 0; i < inliers.size(); ++i) {
     if (told[i]) continue;
     const Correspondence& ac = seen.pair.correspondences[i];
     const Eigen::Vector3d turned = seen.pose.R * ac.x1.homogeneous();
     const double off = travels ? std::abs(sampson_distance(E, ac.x1, ac.x2))
                                : (ac.x2 - turned.hnormalized()).norm();
-    seen.inliers[i] = off <= threshold_px / seen.focal_px;
+    inliers[i] = off <= threshold_px / seen.focal_px;
   }
-  seen.inlier_count =
-      static_cast<std::size_t>(std::count(seen.inliers.begin(), seen.inliers.end(), true));
+  seen.set_inliers(std::move(inliers));
   return seen;
 }
 

@@ -120,10 +120,8 @@ TwoView TwoViewEstimator::estimate(TrackedPair pair, const TwoViewPrior& prior) 
   result.inliers = std::move(found.inliers);
   if (result.status == StepStatus::kOk) {
     result = in_lasting_sense(std::move(result), prior.motion.direction);
-    result.inliers = with_plausible_depths(result.pair, result.inliers, result.pose, prior.motion,
-                                           result.focal_px);
-    result.inlier_count =
-        static_cast<std::size_t>(std::count(result.inliers.begin(), result.inliers.end(), true));
+    result.set_inliers(with_plausible_depths(result.pair, result.inliers, result.pose, prior.motion,
+                                             result.focal_px));
     result = in_lasting_sense(refined(std::move(result)), prior.motion.direction);
   }
   if (result.status == StepStatus::kOk && refine_enabled_) {

@@ -10,10 +10,12 @@
 
 #include <Eigen/Core>
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace oneac {
@@ -42,12 +44,18 @@ struct TwoView {
   TrackedPair pair;           ///< normalised, its second points corrected for perspective
   std::vector<bool> inliers;  ///< one per correspondence; empty when predicted
   std::optional<MotionEvidence> motion;  ///< where rest was in question
-  bool kept_on_course = false;  ///< the images alone wanted a direction that no wheels take
-  bool doubts_course = false;   ///< and were sure of it
-  std::size_t inlier_count = 0;
-  double focal_px = 1.0;                      ///< [px] of one normalised unit
+  bool kept_on_course = false;   ///< the images alone wanted a direction that no wheels take
+  bool doubts_course = false;    ///< and were sure of it
+  std::size_t inlier_count = 0;  ///< of inliers, where they are not empty
+  double focal_px = 1.0;         ///< [px] of one normalised unit
   double estimate_ms = 0.0, refine_ms = 0.0;  ///< CPU time [ms]
   std::string fault;  ///< of the initialiser's answer, which is not used; "" as a rule
+
+  /// Takes these for the inliers.
+  void set_inliers(std::vector<bool> flags) {
+    inliers = std::move(flags);
+    inlier_count = static_cast<std::size_t>(std::count(inliers.begin(), inliers.end(), true));
+  }
 };
 
 /// 1σ of a coordinate of a normalised correspondence; 0.25 px where its track does not say.
