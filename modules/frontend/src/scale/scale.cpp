@@ -201,16 +201,15 @@ bool Scale::Carried::adds_up_to(double way) const {
   if (!(way_ > 0.0) || !(way > 0.0)) return true;
   // A bend may lose a tenth, and a chord is shorter than its arc.
   constexpr double kSame = 0.3;
-  constexpr double kSteps = 16.0;  // that share their landmarks, and what is wrong with these
   const double off = std::log((way_ + untold_) / way);
-  return std::abs(off) <= kSame + kContradiction * std::sqrt(kSteps * variance());
+  return std::abs(off) <=
+         kSame + kContradiction * std::sqrt(ScaleFilter::kStepsOfALandmark * variance());
 }
 
 double Scale::Carried::variance() const {
   if (!(way_ > 0.0)) return 0.0;
-  constexpr double kMany = 16.0;  // usual landmarks live for so many steps
   constexpr double kEnds = 4.0;  // [σ of a step] of a way, for tracks that slip along with a patch
-  if (steps_ <= kMany) return relative_;
+  if (steps_ <= ScaleFilter::kStepsOfALandmark) return relative_;
   return std::min(relative_, kEnds * kEnds * absolute_ / steps_ / (way_ * way_));
 }
 

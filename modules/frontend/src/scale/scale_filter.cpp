@@ -14,9 +14,6 @@ constexpr double kStretches = 2.0;
 // [m] of way over which the road's error changes. Most weight has the road 5 to 15 m ahead, so a
 // stretch of it stays in view for 10 m, and halfway half of what is seen is new.
 constexpr double kStretch = 5.0;
-// [steps] that share a landmark: what is wrong with its depth is wrong in all of them, so that
-// their variances add up so many times over.
-constexpr double kSteps = 16.0;
 // [1/√rad] A bend has the scale handed on, from view to view, by landmarks that came into it a few
 // steps ago: 5 to 10 % of it were lost in 50° of real ones.
 constexpr double kTurnDrift = 0.06;
@@ -37,7 +34,7 @@ double ScaleFilter::drift(double way, double carried_variance, double turn) {
   const double before = variance_;
   refused_way_ += std::abs(way);
   wheels_.travel(std::abs(way));
-  variance_ += options_.map_drift * options_.map_drift + kSteps * carried_variance +
+  variance_ += options_.map_drift * options_.map_drift + kStepsOfALandmark * carried_variance +
                kTurnDrift * kTurnDrift * std::abs(turn);
   const double kept = by_wheels_ ? 1.0 : std::exp(-std::abs(way) / kStretch);
   error_ *= kept;

@@ -19,6 +19,10 @@ namespace oneac {
 /// says which. The map is not moved then, until they agree again.
 class ScaleFilter {
  public:
+  /// [steps] that share a landmark: what is wrong with its depth is wrong in all of them, so that
+  /// their variances add up so many times over.
+  static constexpr double kStepsOfALandmark = 16.0;
+
   /// @pre options.validate() passes
   explicit ScaleFilter(const ScaleOptions& options);
 
