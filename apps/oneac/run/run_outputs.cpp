@@ -16,6 +16,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <ostream>
 #include <stdexcept>
 #include <string_view>
@@ -61,8 +62,8 @@ void write_simple_map(const DriveRecord& record, std::ostream& out) {
 }
 
 void write_map(const DriveRecord& record, const std::filesystem::path& folder) {
-  const auto write = [&](const char* name, auto&& produce) {
-    write_file_atomically(folder / name, [&](std::ostream& out) { produce(out); });
+  const auto write = [&](const char* name, const std::function<void(std::ostream&)>& produce) {
+    write_file_atomically(folder / name, produce);
   };
   write("keyframes.tum", [&](std::ostream& out) { write_keyframes(record.keyframes, out); });
   write("graph.g2o", [&](std::ostream& out) { write_graph(record, out); });
@@ -228,34 +229,25 @@ std::string used_camera_ini(const DriveRecord& record, const std::string& log) {
 
 void write_drive(const DriveRecord& record, const std::filesystem::path& folder) {
   write_trajectories(record, folder);
-  const auto write = [&](const char* name, auto&& produce) {
-    write_file_atomically(folder / name, [&](std::ostream& out) { produce(out); });
+  const auto write = [&](const char* name, const std::string& header, auto each, auto* line) {
+    write_file_atomically(folder / name, [&](std::ostream& out) {
+      out << header;
+      (record.*each)([&](const auto& row) { out << line(row); });
+    });
   };
-  write("relative_poses.csv", [&](std::ostream& out) {
-    out << relative_poses_header();
-    record.each_relative_pose([&](const auto& row) { out << relative_pose_line(row); });
-  });
-  write("covariance.csv", [&](std::ostream& out) {
-    out << covariances_header();
-    record.each_covariance([&](const auto& row) { out << covariance_line(row); });
-  });
-  write("trajectory_camera.csv", [&](std::ostream& out) {
-    out << pose_covariances_header();
-    record.each_camera_pose([&](const auto& row) { out << pose_covariance_line(row); });
-  });
-  write("trajectory_vehicle.csv", [&](std::ostream& out) {
-    out << pose_covariances_header();
-    record.each_vehicle_pose([&](const auto& row) { out << pose_covariance_line(row); });
-  });
-  write("tilt.csv", [&](std::ostream& out) { write_tilts(record, out); });
+  write("relative_poses.csv", relative_poses_header(), &DriveRecord::each_relative_pose,
+        relative_pose_line);
+  write("covariance.csv", covariances_header(), &DriveRecord::each_covariance, covariance_line);
+  write("trajectory_camera.csv", pose_covariances_header(), &DriveRecord::each_camera_pose,
+        pose_covariance_line);
+  write("trajectory_vehicle.csv", pose_covariances_header(), &DriveRecord::each_vehicle_pose,
+        pose_covariance_line);
+  write_file_atomically(folder / "tilt.csv", [&](std::ostream& out) { write_tilts(record, out); });
   if (!record.keyframes.empty()) write_map(record, folder);
   if (!record.car_mask.empty()) {
     write_file_atomically(folder / "mask.png", png_of(record.car_mask.view()));
   }
-  write("timings.csv", [&](std::ostream& out) {
-    out << timings_header();
-    record.each_timing([&](const auto& row) { out << timing_line(row); });
-  });
+  write("timings.csv", timings_header(), &DriveRecord::each_timing, timing_line);
 }
 
 void fail_if_empty(const DriveRecord& record, const std::string& log) {
