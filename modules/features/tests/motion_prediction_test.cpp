@@ -57,8 +57,10 @@ TEST(MotionPrediction, SaysNothingAboutTheRoadAboveTheHorizonOrWithoutScale) {
 }
 
 /// Of points of the road seen in fifty pairs, this share keeps its place in the picture.
-StaticPoints after_drive(double resting_share) {
-  const MotionHint h = hint(true);
+/// @param metric    whether the motion expected has a length
+/// @param by_place  they had to move whatever it is
+StaticPoints after_drive(double resting_share, bool metric = true, bool by_place = false) {
+  const MotionHint h = hint(metric);
   const MotionPrediction motion(h);
   StaticPoints points(5);
   for (std::size_t pair = 0; pair < 50; ++pair) {
@@ -69,7 +71,7 @@ StaticPoints after_drive(double resting_share) {
       const Eigen::Vector2d flow = road_point(h, track.u) - track.u;
       const bool at_rest = i < 20.0 * resting_share;
       static_cast<void>(
-          points.rests(track, at_rest ? Eigen::Vector2d(0.05, 0.0) : flow, motion, false));
+          points.rests(track, at_rest ? Eigen::Vector2d(0.05, 0.0) : flow, motion, by_place));
     }
   }
   return points;
@@ -83,18 +85,8 @@ TEST(StaticPoints, SeesDirtOnTheGlassWhereATenthOfTheRoadRests) {
 }
 
 TEST(StaticPoints, SeesDirtWhereTravelIsShownBeforeMetresAreKnown) {
-  const MotionHint h = hint(false);
-  const MotionPrediction motion(h);
-  StaticPoints points(5);
-  for (std::size_t pair = 0; pair < 50; ++pair) {
-    points.begin_pair(pair, 10.0);
-    for (int i = 0; i < 20; ++i) {
-      KltTrack track;
-      track.u = {350.0 + 10.0 * i, 420.0};
-      static_cast<void>(points.rests(track, {i < 4 ? 0.05 : 5.0, 0.0}, motion, true));
-    }
-  }
-  EXPECT_TRUE(points.views_through_dirt());
+  EXPECT_FALSE(after_drive(0.0, false, true).views_through_dirt());
+  EXPECT_TRUE(after_drive(0.2, false, true).views_through_dirt());
 }
 
 TEST(StaticPoints, ARedLightDoesNotCleanTheGlass) {
