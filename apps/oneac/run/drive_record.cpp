@@ -80,17 +80,6 @@ Trajectory DriveRecord::camera_trajectory() const {
   return trajectory;
 }
 
-double DriveRecord::path_length() const {
-  double length = 0.0;
-  std::optional<Eigen::Vector3d> before;
-  for (const FrameResult& frame : frames) {
-    const Eigen::Vector3d now = frame.T_first_cam.translation();
-    if (before) length += (now - *before).norm();
-    before = now;
-  }
-  return length;
-}
-
 Eigen::Isometry3d DriveRecord::mount() const {
   // The log's heading of the camera with the pitch and roll that the drive confirmed.
   const Tilt log_tilt = tilt_from_mounting(T_vehicle_cam.linear());

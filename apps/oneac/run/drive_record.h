@@ -88,8 +88,6 @@ struct DriveRecord {
   [[nodiscard]] Eigen::Isometry3d mount() const;
   /// The vehicle (X forward, Z up) against its first pose, by the camera's T_first_cam.
   [[nodiscard]] Eigen::Isometry3d vehicle_pose(const Eigen::Isometry3d& T_first_cam) const;
-  /// [m, or units without scale] along the frames.
-  [[nodiscard]] double path_length() const;
   /// Camera trajectory, first camera = identity.
   [[nodiscard]] Trajectory camera_trajectory() const;
   /// Vehicle trajectory (X forward, Z up), first vehicle pose = identity; the mount is the log's

@@ -2,6 +2,17 @@
 
 namespace oneac::app {
 
+double way_along(const FrameStore& frames) {
+  double length = 0.0;
+  std::optional<Eigen::Vector3d> before;
+  for (const FrameResult& frame : frames) {
+    const Eigen::Vector3d now = frame.T_first_cam.translation();
+    if (before) length += (now - *before).norm();
+    before = now;
+  }
+  return length;
+}
+
 std::vector<MapPoint> KeyframeStore::points(std::size_t i) const {
   const Head head = heads_[i];
   std::vector<MapPoint> points;

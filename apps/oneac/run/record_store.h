@@ -7,6 +7,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <vector>
 
 namespace oneac::app {
@@ -70,6 +71,9 @@ struct FrameFields {
 };
 
 using FrameStore = SpooledVector<FrameResult, FrameFields>;
+
+/// [m, or units without scale] along the frames.
+[[nodiscard]] double way_along(const FrameStore& frames);
 
 /// The keyframes of a drive, in order, with what each has settled of the map.
 class KeyframeStore {

@@ -1,18 +1,11 @@
 #include "run_gui_text.h"
 
 #include "oneac/base/number_text.h"
-#include "oneac/evaluation/trajectory_errors.h"
 
 #include <algorithm>
 
 namespace oneac::app {
 namespace {
-
-double length_of(const FrameStore& frames) {
-  std::vector<Eigen::Isometry3d> poses;
-  for (const FrameResult& frame : frames) poses.push_back(frame.T_first_cam);
-  return path_length(poses);
-}
 
 // A standing step has zero metres without any scale.
 bool travelled_in_metres(const FrameResult& frame) {
@@ -35,7 +28,7 @@ std::vector<std::string> gui_lines(const FrameStore& frames) {
   const bool metres = std::any_of(frames.begin(), frames.end(), travelled_in_metres);
   std::vector<std::string> lines{
       "frame " + std::to_string(frames.size()) + ", " + fixed_text(seconds, 1) + " s",
-      "distance " + fixed_text(length_of(frames), 1) + (metres ? " m" : " units, no metres yet")};
+      "distance " + fixed_text(way_along(frames), 1) + (metres ? " m" : " units, no metres yet")};
   if (last.step) lines.push_back(about(*last.step));
   return lines;
 }

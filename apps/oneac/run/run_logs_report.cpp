@@ -79,7 +79,7 @@ Table table_of(const std::vector<RecordedDrive>& drives, const ClosedDrives& clo
                           {std::to_string(drive.frame_of + 1)},
                           {std::to_string(record.frames.size())},
                           {std::to_string(drive.keyframes.size())},
-                          {fixed_text(record.path_length(), 1) + unit},
+                          {fixed_text(way_along(record.frames), 1) + unit},
                           {std::to_string(drive.graph.loops.size())},
                           {std::to_string(drive.loops_to_others)}});
   }

@@ -298,7 +298,7 @@ std::string summary_json(const DriveRecord& record, const RunEvaluation& evaluat
   json["tilt_source_asked_for"] = options.front_end.tilt.source;
   json["counts"] = counts_json(record);
   json["camera"] = camera_json(record);
-  json["path_length"] = record.path_length();
+  json["path_length"] = way_along(record.frames);
   json["interrupted"] = record.interrupted;
   json["damage"] = record.source.damage;
   json["failure"] = record.failure;
@@ -319,7 +319,7 @@ std::string summary_json(const DriveRecord& record, const RunEvaluation& evaluat
 std::string summary_text(const DriveRecord& record, const RunEvaluation& evaluation) {
   const std::string metric = metric_word(record), unit = metric == "none" ? "units" : "m";
   std::string text = std::to_string(record.frames.size()) + " frames, " +
-                     fixed_text(record.path_length(), 1) + " " + unit + ", metric: " + metric +
+                     fixed_text(way_along(record.frames), 1) + " " + unit + ", metric: " + metric +
                      "\n";
   if (const double share = record.car_mask_share(); share > 0.0) {
     text += "learned as the car's own: " + fixed_text(100.0 * share, 1) +
