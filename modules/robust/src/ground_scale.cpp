@@ -12,6 +12,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace oneac {
 namespace {
@@ -21,6 +22,12 @@ constexpr int kPlaneIterations = 10;  // IRLS; the weights converge after four t
 // Smallest height of the camera above a ground point [baselines]: a step of more than 20 camera
 // heights, 30 m from one frame to the next, is not driving.
 constexpr double kSmallestHeight = 0.05;
+// [-] Frobenius error of an affinity that counts as one when road and wall are compared, and how
+// many of them count at most: then it says nothing more.
+constexpr double kAffineError = 0.1, kMostErrors = 3.0;
+// [-] of max_side: how far from the way a camera that looks aside looks for road. That are two
+// lanes; then comes the kerb, with roofs of parked vans before a high camera.
+constexpr double kAside = 2.0;
 
 double squared(double value) {
   return value * value;
@@ -31,7 +38,9 @@ struct Candidate {
   Eigen::Vector3d X;
   double relative_sigma;  ///< of its depth, hence of its height
   double weight;          ///< how well its affinity fits a horizontal plane, 0 … 1
-  bool beside;            ///< the way turns off before it
+  /// By how much its affinity fits a wall across and a wall along the way worse than the road.
+  Eigen::Array2d against_wall;
+  bool beside;  ///< the way turns off before it
 };
 
 /// Relative error of the depth: position noise over the shift that the translation causes.
@@ -42,37 +51,62 @@ double depth_sigma(const RelativePose& T, const AffineCorrespondence& ac, double
   return shift > 0.0 && z1 > 0.0 ? sigma * std::sqrt(2.0) / shift : 1e9;
 }
 
-/// 1 for an affinity that the horizontal plane through the point explains, falling to 0.
-double affine_agreement(const RelativePose& T, const AffineCorrespondence& ac,
-                        const Eigen::Vector3d& down, double height, double tolerance) {
-  const auto predicted =
-      correspondence_from_homography(plane_induced_homography(T, {down, height}), ac.x1);
-  if (!predicted) return 0.0;
-  const double error = (predicted->A - ac.A).norm() / tolerance;
-  return std::exp(-0.5 * error * error);
+/// Frobenius error of an affinity against that of a plane through the point; infinite where such a
+/// plane shows none.
+/// @param X       the point in the camera frame, in the unit of T.t
+/// @param normal  of the plane there, of either sign
+double affine_error(const RelativePose& T, const AffineCorrespondence& ac, const Eigen::Vector3d& X,
+                    const Eigen::Vector3d& normal) {
+  const double distance = normal.dot(X);
+  const Plane plane{distance < 0.0 ? Eigen::Vector3d(-normal) : normal, std::abs(distance)};
+  if (!(plane.d > 0.0)) return std::numeric_limits<double>::infinity();
+  const auto predicted = correspondence_from_homography(plane_induced_homography(T, plane), ac.x1);
+  return predicted ? (predicted->A - ac.A).norm() : std::numeric_limits<double>::infinity();
 }
+
+double misfit(double affine_error) {
+  return squared(std::min(affine_error / kAffineError, kMostErrors));
+}
+
+/// Normals in the camera frame: of the road, of walls across and along the way.
+struct Normals {
+  Eigen::Vector3d down, across, along;
+
+  Normals(const RelativePose& T, const Eigen::Matrix3d& L) : down(L.row(1).transpose()) {
+    const Eigen::Vector3d way = T.R.transpose() * T.t;
+    across = way - way.dot(down) * down;
+    if (!(across.norm() > 0.5 * way.norm())) across = L.row(2).transpose();  // a lift has no way
+    across.normalize();
+    along = down.cross(across);
+  }
+};
 
 std::vector<Candidate> ground_candidates(AcSpan acs, const std::vector<bool>& inliers,
                                          const RelativePose& T, const Eigen::Matrix3d& L,
                                          double sigma, const GroundScaleOptions& options) {
-  const Eigen::Vector3d down = L.row(1).transpose();  // levelled Y in the camera frame
+  const Normals normals(T, L);
   const DrivenPath path(T, L);
   std::vector<Candidate> candidates;
   for (std::size_t i = 0; i < acs.size(); ++i) {
     if (!inliers[i]) continue;
     const auto point = triangulate(T, acs[i].x1, acs[i].x2);
     if (!point || !point->in_front()) continue;
-    const Eigen::Vector3d X = L * (point->z1 * acs[i].x1.homogeneous());
+    const Eigen::Vector3d seen = point->z1 * acs[i].x1.homogeneous();
+    const Eigen::Vector3d X = L * seen;
     if (!(X.y() > kSmallestHeight)) continue;
     if (X.z() > options.max_distance * X.y()) continue;
     const double side = options.max_side * X.y();
-    if (std::abs(X.x()) > side) continue;
+    if (std::abs(X.x()) > side || std::abs(normals.along.dot(seen)) > kAside * side) continue;
     const auto middle = path.at(X.z());
     const bool beside = !middle || std::abs(X.x() - *middle) > side;
     const double relative_sigma = depth_sigma(T, acs[i], point->z1, sigma);
     if (!(relative_sigma < 0.3)) continue;  // no parallax
-    const double weight = affine_agreement(T, acs[i], down, X.y(), options.affine_tolerance);
-    if (weight > 0.01) candidates.push_back({X, relative_sigma, weight, beside});
+    const double error = affine_error(T, acs[i], seen, normals.down);
+    const double weight = std::exp(-0.5 * squared(error / options.affine_tolerance));
+    if (!(weight > 0.01)) continue;
+    const Eigen::Array2d walls(misfit(affine_error(T, acs[i], seen, normals.across)),
+                               misfit(affine_error(T, acs[i], seen, normals.along)));
+    candidates.push_back({X, relative_sigma, weight, walls - misfit(error), beside});
   }
   return candidates;
 }
@@ -103,6 +137,7 @@ struct RoadPlane {
   double beside = 0.0;           ///< share of the support that the car does not drive on
   double reach = 0.0;            ///< root mean square distance ahead of the support
   std::size_t support = 0;
+  Eigen::Array2d against_wall = Eigen::Array2d::Zero();  ///< of the support together
 
   [[nodiscard]] double height_at(const Eigen::Vector3d& X) const {
     return d + a * X.x() + b * X.z();
@@ -124,6 +159,7 @@ RoadPlane fit_plane(const std::vector<Candidate>& candidates, double height,
     double chi2 = 0.0;
     double weights = 0.0, beside = 0.0, ahead = 0.0;
     plane.support = 0;
+    plane.against_wall.setZero();
     for (const Candidate& c : candidates) {
       // Y, X, Z all scale with the depth, so the error of the residual is that of the depth times
       // the plane's height.
@@ -137,7 +173,9 @@ RoadPlane fit_plane(const std::vector<Candidate>& candidates, double height,
       weights += robust;
       if (c.beside) beside += robust;
       ahead += robust * squared(c.X.z());
-      if (std::abs(z) < kPlaneCut && c.weight > 0.3) ++plane.support;
+      if (!(std::abs(z) < kPlaneCut && c.weight > 0.3)) continue;
+      ++plane.support;
+      plane.against_wall += c.against_wall;
     }
     factor.compute(H);
     const Eigen::Vector3d solution = factor.solve(g);
@@ -171,6 +209,8 @@ std::optional<GroundScale> ground_scale(AcSpan acs, const std::vector<bool>& inl
   const double height = heaviest_height(candidates, options.bandwidth);
   const RoadPlane plane = fit_plane(candidates, height, options);
   if (plane.support < static_cast<std::size_t>(options.min_support)) return std::nullopt;
+  // The rear of a parked car has points at every height, some of which lie on any plane.
+  if (plane.against_wall.minCoeff() < 0.0) return std::nullopt;
   const double distance = plane.distance();
   if (!(distance > kSmallestHeight) || !std::isfinite(distance)) return std::nullopt;
   const double uncertainty = std::sqrt(plane.variance_factor * plane.variance) / plane.d;

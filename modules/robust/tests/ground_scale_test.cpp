@@ -183,6 +183,51 @@ TEST(GroundScale, SaysNothingWithoutRoad) {
                    .has_value());
 }
 
+/// On a smooth road the rear and the flank of a parked car are all that has corners: some of them
+/// lie on any plane below the camera.
+TEST(GroundScale, TakesNoCarForARoad) {
+  const RelativePose T{Eigen::Matrix3d::Identity(), {0.0, 0.0, -0.6}};
+  for (const Eigen::Vector3d& normal :
+       {Eigen::Vector3d(Eigen::Vector3d::UnitZ()), Eigen::Vector3d(Eigen::Vector3d::UnitX())}) {
+    SceneGenerator scene(34);
+    const double distance = normal.z() > 0.0 ? 7.0 : 1.5;
+    const auto wall = plane_induced_homography(T, {normal, distance});
+    std::vector<AffineCorrespondence> acs;
+    while (acs.size() < 100) {
+      const Eigen::Vector2d x1 = scene.image_point(0.02, 0.24);
+      const double depth = distance / normal.dot(x1.homogeneous());
+      const bool on_car = depth > 4.0 && depth < 9.0 && depth * x1.y() > 0.3 &&
+                          depth * x1.y() < 0.95 && std::abs(depth * x1.x()) < 1.8;
+      if (!on_car) continue;
+      const auto ac = correspondence_from_homography(wall, x1);
+      acs.push_back(scene.with_noise(*ac, 0.3 * kSigma, 0.05));
+    }
+    EXPECT_FALSE(ground_scale(acs, std::vector<bool>(acs.size(), true), with_unit_length(T), kLevel,
+                              kSigma, {}))
+        << normal.transpose();
+  }
+}
+
+/// A high camera that looks aside: a lane of road, and behind it the roofs of parked vans.
+TEST(GroundScale, LooksNoFartherAsideThanTwoLanes) {
+  SceneGenerator scene(35);
+  const RelativePose T{Eigen::Matrix3d::Identity(), {0.3, 0.0, 0.0}};
+  const auto road = plane_induced_homography(T, {Eigen::Vector3d::UnitY(), 1.0});
+  const auto roofs = plane_induced_homography(T, {Eigen::Vector3d::UnitY(), 0.3});
+  std::vector<AffineCorrespondence> acs;
+  while (acs.size() < 200) {
+    const Eigen::Vector2d x1 = scene.image_point(0.05, 0.5);
+    const double aside = 1.0 / x1.y(), on_roof = 0.3 / x1.y();
+    const bool roof = on_roof > 4.5 && on_roof < 6.0;
+    if (!roof && (aside > 4.0 || acs.size() % 8 != 0)) continue;
+    acs.push_back(*correspondence_from_homography(roof ? roofs : road, x1));
+  }
+  const auto scale = ground_scale(acs, std::vector<bool>(acs.size(), true), with_unit_length(T),
+                                  kLevel, kSigma, {});
+  ASSERT_TRUE(scale.has_value());
+  EXPECT_NEAR(scale->baseline / T.t.norm(), 1.0, 0.01);
+}
+
 TEST(GroundScale, UsesInliersOnly) {
   SceneGenerator scene(34);
   const RelativePose T = forward(0.8);

@@ -14,7 +14,8 @@ namespace oneac {
 struct GroundScaleOptions {
   double max_distance = 15.0;      ///< [camera heights] farther road has no parallax and few pixels
   double max_side = 2.0;           ///< [camera heights] to either side: the lane and a metre or
-                                   ///< two; then come other cross falls, kerbs and footways
+                                   ///< two; then come other cross falls, kerbs and footways. Twice
+                                   ///< that for a camera that looks aside
   double affine_tolerance = 0.25;  ///< [-] |A − A_ground| (Frobenius) of a ground correspondence
   double bandwidth = 0.05;         ///< [-] relative spread of heights that count as the same plane
   int min_support = 8;             ///< ground correspondences needed, and ...
@@ -62,6 +63,8 @@ struct GroundScale {
 /// above its horizontal plane, weighted by its parallax; the ground is the heaviest mode among
 /// correspondences whose affinity agrees with a horizontal plane. The plane is then refined with a
 /// slope (IRLS, slope held by its prior): a slope of 0.5° would otherwise change the length by 5 %.
+/// Points whose affinities together fit a wall across or along the way better than the road are of
+/// parked cars, and measure nothing.
 /// @param acs       normalised correspondences of the tilted camera
 /// @param inliers   those that obey the pose, one flag each
 /// @param T_2_1     motion of the tilted camera, |t| = 1
