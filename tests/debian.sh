@@ -101,7 +101,7 @@ if [ ! -e "$root/etc/apt/apt.conf.d/90host" ]; then
   rm -rf --one-file-system "$root" "$root.scripts"
   timed "the root" make_root "$suite" "$root"
 fi
-mkdir -p "$root/ccache"
+mkdir -p "$root/ccache" ${ONEAC_DEBIAN_CCACHE:+"$ONEAC_DEBIAN_CCACHE"}
 if [ -d "$root/root/oneac" ]; then
   git -c safe.directory='*' -C "$root/root/oneac" fetch -q "$oneac_root" HEAD
   git -c safe.directory='*' -C "$root/root/oneac" reset -q --hard FETCH_HEAD
