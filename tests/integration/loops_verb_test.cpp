@@ -170,7 +170,9 @@ TEST_F(LoopsVerb, WriteTheClosedDriveBesideTheOther) {
     ++edges;
   }
   EXPECT_EQ(edges, read_tum(out / "keyframes.tum").times.size() - 1 + loops);
-  EXPECT_NE(read_file(out / "report.html").find("<h2>Loops</h2>"), std::string::npos);
+  const std::string report = read_file(out / "report.html");
+  EXPECT_NE(report.find("<h2>Loops</h2>"), std::string::npos);
+  EXPECT_NE(report.find("Absolute position error"), std::string::npos);
 }
 
 /// [m] how far the poses lie apart at most.
@@ -260,7 +262,13 @@ TEST_F(LoopsVerb, AdjustTheWholeDriveWhereThatIsAskedFor) {
   const auto before = nlohmann::json::parse(read_file(folder("closed") / "summary.json"))["loops"];
   EXPECT_LT(loops["ape_after_m"], 1.05 * before["ape_after_m"].get<double>());
   EXPECT_FALSE(before.contains("global_ba"));
-  EXPECT_NE(read_file(out / "report.html").find("Global bundle adjustment"), std::string::npos);
+  EXPECT_EQ(loops["ape_of_pose_graph_m"], before["ape_after_m"]);
+  EXPECT_FALSE(before.contains("ape_of_pose_graph_m"));
+  const std::string report = read_file(out / "report.html");
+  for (const char* text :
+       {"Global bundle adjustment", "Absolute position error", "loops, pose graph"}) {
+    EXPECT_NE(report.find(text), std::string::npos) << text;
+  }
 }
 
 TEST_F(LoopsVerb, HaveToBeAskedForWithTheGlobalAdjustment) {

@@ -9,7 +9,7 @@ oneac="$scratch/moved/bin/oneac"
 
 # build_against_moved PROJECT: configures and builds it in the scratch folder.
 build_against_moved() {
-  run cmake -S "$tests/$1" -B "$scratch/$1" -DCMAKE_BUILD_TYPE=Release \
+  run cmake -S "$tests/$1" -B "$scratch/$1" -DCMAKE_BUILD_TYPE=Release -DCONSUMER_LOOPS=ON \
     -DCMAKE_PREFIX_PATH="$scratch/moved" -DCMAKE_CXX_FLAGS="-Wall -Wextra -Werror"
   expect_code 0
   run cmake --build "$scratch/$1"
@@ -58,6 +58,24 @@ run "$scratch/consumer/consumer" "$scratch/drive/simulated.rawlog" "$scratch/dri
 expect_code 0
 [ "$(grep -cE '^[0-9.]+( -?[0-9]+\.[0-9]+){7}$' "$run_output")" -eq 12 ] || fail "not 12 poses"
 [ "$(wc -l <"$run_output")" -eq 12 ] || fail "more than poses"
+
+case_name "a program of one's own closes loops as oneac run does"
+run "$oneac" simulate -o "$scratch/block" --route block --laps 2 --block-m 40 --lane-shift-m 0.5 \
+  --width 320 --height 240 --focal 250
+expect_code 0
+run "$oneac" run "$scratch/block/simulated.rawlog" -o "$scratch/closed" --loops --camera-height 1.5
+expect_code 0
+[ "$(wc -l <"$scratch/closed/loops.csv")" -gt 10 ] || fail "hardly any loops"
+run sh -c '"$1" "$2" 1.5 >"$3"' - "$scratch/consumer/closed_drive" \
+  "$scratch/block/simulated.rawlog" "$scratch/closed_drive.tum"
+expect_code 0
+expect_output " loops"
+# To a millimetre: the program doubts lengths by what the whole drive says of the camera.
+run awk 'NR == FNR { x[FNR] = $2; z[FNR] = $4; next }
+  { n++; far = far || ($2 - x[FNR]) ^ 2 + ($4 - z[FNR]) ^ 2 > 1e-6 }
+  END { exit far || n != length(x) }' \
+  "$scratch/closed_drive.tum" "$scratch/closed/keyframes_optimised.tum"
+expect_code 0
 
 case_name "every module can be found, included and linked"
 build_against_moved all_modules

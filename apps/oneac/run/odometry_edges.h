@@ -4,8 +4,7 @@
 
 #include "oneac/evaluation/trajectory_io.h"
 #include "oneac/frontend/keyframe.h"
-
-#include <Eigen/Core>
+#include "oneac/frontend/loop_keyframes.h"
 
 #include <cstddef>
 #include <ostream>
@@ -13,11 +12,8 @@
 
 namespace oneac::app {
 
-/// What the errors of the steps from one keyframe to the next add up to, as LoopKeyframe has it;
-/// zero over a loss of tracking.
-[[nodiscard]] Eigen::Matrix<double, 6, 6> covariance_between(const Keyframe& before,
-                                                             const Keyframe& keyframe,
-                                                             const DriveRecord& record);
+/// The steps of a drive by their frame. @pre the record outlives what is returned
+[[nodiscard]] StepTo steps_of(const DriveRecord& record);
 
 /// The keyframes without points, each edge as uncertain as its steps are together. The window's own
 /// information is that of a keyframe whose landmarks are known: it adds up to a fraction of the

@@ -127,7 +127,7 @@ void adjust_closed_drives(const std::vector<RecordedDrive>& drives, ClosedDrives
       adjust_globally(closed.keyframes, closed.graph, tracks.drive, options.global_ba, stop);
   closed.global = adjusted.report;
   if (!adjusted.report.adjusted) return;
-  closed.graph.T_first_cam = adjusted.T_first_cam;
+  closed.T_of_graph = std::exchange(closed.graph.T_first_cam, adjusted.T_first_cam);
   for (std::size_t log = 0; log < drives.size(); ++log) {
     closed.points.push_back(points_of(*drives[log].record, log, tracks, adjusted));
   }

@@ -25,34 +25,21 @@
 namespace oneac::app {
 namespace {
 
-LoopKeyframe to_loop_keyframe(const Keyframe& keyframe, const DriveRecord& record) {
-  LoopKeyframe out;
-  out.id = keyframe.id;
-  out.index = keyframe.index;
-  out.time_s = keyframe.time_s;
-  out.segment = keyframe.segment;
-  out.metric = keyframe.metric;
-  out.T_first_cam = keyframe.T_first_cam;
-  const std::optional<StepResult> step = record.frames.at(keyframe.frame).step;
-  out.scale_sigma = step && step->metric ? step->length_sigma : record.common_length_sigma;
-  return out;
-}
-
 /// The keyframes of the drives, one log after the other, each with an id of its own.
 std::vector<LoopKeyframe> loop_keyframes(const std::vector<RecordedDrive>& drives) {
   std::vector<LoopKeyframe> all;
   for (std::size_t log = 0; log < drives.size(); ++log) {
     const DriveRecord& record = *drives[log].record;
     const std::size_t first_id = all.empty() ? 0 : all.back().id + 1;
+    Keyframe before;
     for (std::size_t i = 0; i < record.keyframes.size(); ++i) {
-      LoopKeyframe keyframe = to_loop_keyframe(record.keyframes[i], record);
+      Keyframe now = record.keyframes[i];
+      LoopKeyframe keyframe = to_loop_keyframe(now, i > 0 ? &before : nullptr, steps_of(record));
       keyframe.log = log;
       keyframe.id += first_id;
-      if (i > 0) {
-        keyframe.covariance =
-            covariance_between(record.keyframes[i - 1], record.keyframes[i], record);
-      }
+      if (keyframe.scale_sigma == 0.0) keyframe.scale_sigma = record.common_length_sigma;
       all.push_back(keyframe);
+      before = std::move(now);
     }
   }
   return all;
@@ -178,6 +165,11 @@ ClosedDrive drive_of(const ClosedDrives& all, std::size_t begin, std::size_t end
   }
   drive.frames =
       moved ? moved_frames(record, drive.graph.T_first_cam) : record.camera_trajectory().poses;
+  if (moved && !all.T_of_graph.empty()) {
+    const auto at = all.T_of_graph.begin();
+    drive.frames_of_graph = moved_frames(
+        record, {at + static_cast<std::ptrdiff_t>(begin), at + static_cast<std::ptrdiff_t>(end)});
+  }
   return drive;
 }
 

@@ -22,6 +22,8 @@ struct ClosedDrive {
   LoopReport report;                      ///< of the search, which may be in several logs
   ClosedGraph graph;                      ///< its own keyframes and the loops between them
   std::vector<Eigen::Isometry3d> frames;  ///< T_first_cam of every processed frame, closed
+  /// The same by the pose graph alone; empty where nothing was adjusted after it
+  std::vector<Eigen::Isometry3d> frames_of_graph;
   /// Of (θ, p) of each keyframe in that frame, see closed_covariances(); empty without loops
   std::vector<Eigen::Matrix<double, 6, 6>> covariances;
   Eigen::Isometry3d frame_mount = Eigen::Isometry3d::Identity();  ///< T_vehicle_cam of that first
@@ -55,6 +57,7 @@ struct ClosedDrives {
   bool searched = false;                                 ///< to the end
   std::vector<ClosedDrive> drives;     ///< each for itself, in the frame that it was joined to
   std::optional<GlobalReport> global;  ///< of the global adjustment, where it was asked for
+  std::vector<Eigen::Isometry3d> T_of_graph;  ///< what it began with; empty: it changed nothing
   std::vector<std::vector<std::optional<Eigen::Vector3d>>> points;  ///< per log, see ClosedDrive
   std::string note;  ///< one line when the images could not be read again, else ""
 };

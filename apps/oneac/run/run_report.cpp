@@ -113,7 +113,30 @@ void add_curves(HtmlPage& page, const DriveRecord& record, const RunEvaluation& 
   page.figures(svgs);
 }
 
-void add_global(HtmlPage& page, const RunEvaluation& evaluation, const GlobalReport& global) {
+/// Absolute position errors of the drive as it was and as it is closed.
+Table ape_of_loops(const RunEvaluation& evaluation) {
+  Table table{"Absolute position error against the reference [m]",
+              {"trajectory", "RMS", "mean", "median", "95 %", "largest", "length [%]"},
+              {}};
+  const auto add = [&](const char* name, const std::optional<Evaluation>& of) {
+    if (!of || !of->trajectory) return;
+    const Statistics& ape = of->trajectory->ape;
+    std::vector<Cell> row{{name}};
+    for (const double value : {ape.rmse, ape.mean, ape.median, ape.p95, ape.max}) {
+      row.push_back({significant_text(value, 3)});
+    }
+    const std::optional<double> scale = of->trajectory->scale_error;
+    row.push_back({scale ? significant_text(100.0 * *scale, 2) : ""});
+    table.rows.push_back(row);
+  };
+  add("odometry", evaluation.against_poses);
+  add("loops, pose graph", evaluation.graph_against_poses);
+  const bool adjusted = evaluation.graph_against_poses.has_value();
+  add(adjusted ? "loops, adjusted" : "loops", evaluation.closed_against_poses);
+  return table;
+}
+
+void add_global(HtmlPage& page, const GlobalReport& global) {
   page.heading("Global bundle adjustment");
   if (!global.adjusted) {
     page.paragraph("It was asked for and has changed nothing: " + global.reason + ".");
@@ -122,7 +145,7 @@ void add_global(HtmlPage& page, const RunEvaluation& evaluation, const GlobalRep
   page.paragraph("After the loops, all keyframes and " + std::to_string(global.patches) +
                  " patches that they saw were adjusted together; the trajectory after loops is the "
                  "one after this.");
-  HtmlPage::Rows rows = {
+  const HtmlPage::Rows rows = {
       {"reprojection, RMS before [px]", significant_text(global.rms_before_px, 3)},
       {"reprojection, RMS after [px]", significant_text(global.rms_after_px, 3)},
       {"iterations", std::to_string(global.iterations)},
@@ -130,12 +153,6 @@ void add_global(HtmlPage& page, const RunEvaluation& evaluation, const GlobalRep
       {"rejected by the solution", std::to_string(global.rejected)},
       {"left out, affinity inconsistent", std::to_string(global.inconsistent)},
       {"loops that entered as images", std::to_string(global.loops)}};
-  const auto add_ape = [&](const char* name, const std::optional<Evaluation>& of) {
-    if (of && of->trajectory)
-      rows.emplace_back(name, significant_text(of->trajectory->ape.rmse, 3));
-  };
-  add_ape("APE of the odometry, RMS [m]", evaluation.against_poses);
-  add_ape("APE after loops and adjustment, RMS [m]", evaluation.closed_against_poses);
   page.table("of the adjustment", rows);
 }
 
@@ -162,7 +179,9 @@ void add_loops(HtmlPage& page, const DriveRecord& record, const RunEvaluation& e
                        "it was closed by them (trajectory_optimised_camera.tum). A line per loop "
                        "joins its keyframes where they were before.");
   if (count > 0) page.figures({plot_svg(plan_of_loops(record, evaluation, closed))});
-  if (closed.global) add_global(page, evaluation, *closed.global);
+  const Table errors = ape_of_loops(evaluation);
+  if (count > 0 && !errors.rows.empty()) page.table(errors);
+  if (closed.global) add_global(page, *closed.global);
 }
 
 void add_pictures(HtmlPage& page, const DriveRecord& record, const RunEvaluation& evaluation,

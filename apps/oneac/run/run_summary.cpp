@@ -231,6 +231,8 @@ Json loops_json(const ClosedDrive& closed, const RunEvaluation& evaluation) {
   const auto& after = evaluation.closed_against_poses;
   if (!after || !after->trajectory || !evaluation.against_poses->trajectory) return json;
   json["ape_before_m"] = evaluation.against_poses->trajectory->ape.rmse;
+  const auto& graph = evaluation.graph_against_poses;
+  if (graph && graph->trajectory) json["ape_of_pose_graph_m"] = graph->trajectory->ape.rmse;
   json["ape_after_m"] = after->trajectory->ape.rmse;
   return json;
 }
@@ -265,7 +267,10 @@ RunEvaluation evaluate_record(const DriveRecord& record, const RunOptions& optio
     };
     evaluation.against_poses = against(record.camera_trajectory());
     if (closed != nullptr) {
-      evaluation.closed_against_poses = against(closed->camera_trajectory(record));
+      Trajectory camera = closed->camera_trajectory(record);
+      evaluation.closed_against_poses = against(camera);
+      camera.poses = closed->frames_of_graph;
+      if (!camera.poses.empty()) evaluation.graph_against_poses = against(camera);
     }
   }
   evaluation.against_gps = compare_with_gps(record);

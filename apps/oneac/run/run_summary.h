@@ -27,6 +27,7 @@ struct RunEvaluation {
   std::string reference_file;  ///< "" when there is none
   std::optional<Evaluation> against_poses;
   std::optional<Evaluation> closed_against_poses;  ///< the same with the loops closed
+  std::optional<Evaluation> graph_against_poses;  ///< before the global adjustment, if there is one
   std::optional<GpsComparison> against_gps;
   std::optional<double> gps_lag_s;  ///< see lag_of_gps
   GeoreferenceResult georeference;  ///< how the drive lies on the earth, or why that is not known
