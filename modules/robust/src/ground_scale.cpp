@@ -25,9 +25,10 @@ constexpr double kSmallestHeight = 0.05;
 // [-] Frobenius error of an affinity that counts as one when road and wall are compared, and how
 // many of them count at most: then it says nothing more.
 constexpr double kAffineError = 0.1, kMostErrors = 3.0;
-// [-] of max_side: how far from the way a camera that looks aside looks for road. That are two
-// lanes; then comes the kerb, with roofs of parked vans before a high camera.
+// [-] of max_side: how far from the way a camera that looks more than 25° aside looks for road.
+// That are two lanes; then comes the kerb, with roofs of parked vans before a high camera.
 constexpr double kAside = 2.0;
+const double kAhead = std::cos(25.0 * kDegree);
 
 double squared(double value) {
   return value * value;
@@ -71,6 +72,7 @@ double misfit(double affine_error) {
 /// Normals in the camera frame: of the road, of walls across and along the way.
 struct Normals {
   Eigen::Vector3d down, across, along;
+  bool looks_aside;  ///< more than 25° off the way
 
   Normals(const RelativePose& T, const Eigen::Matrix3d& L) : down(L.row(1).transpose()) {
     const Eigen::Vector3d way = T.R.transpose() * T.t;
@@ -78,6 +80,7 @@ struct Normals {
     if (!(across.norm() > 0.5 * way.norm())) across = L.row(2).transpose();  // a lift has no way
     across.normalize();
     along = down.cross(across);
+    looks_aside = std::abs(L.row(2).dot(across)) < kAhead;
   }
 };
 
@@ -96,7 +99,8 @@ std::vector<Candidate> ground_candidates(AcSpan acs, const std::vector<bool>& in
     if (!(X.y() > kSmallestHeight)) continue;
     if (X.z() > options.max_distance * X.y()) continue;
     const double side = options.max_side * X.y();
-    if (std::abs(X.x()) > side || std::abs(normals.along.dot(seen)) > kAside * side) continue;
+    if (std::abs(X.x()) > side) continue;
+    if (normals.looks_aside && std::abs(normals.along.dot(seen)) > kAside * side) continue;
     const auto middle = path.at(X.z());
     const bool beside = !middle || std::abs(X.x() - *middle) > side;
     const double relative_sigma = depth_sigma(T, acs[i], point->z1, sigma);
