@@ -77,6 +77,14 @@ run awk 'NR == FNR { x[FNR] = $2; z[FNR] = $4; next }
   "$scratch/closed_drive.tum" "$scratch/closed/keyframes_optimised.tum"
 expect_code 0
 
+case_name "it ends as well where maps begin anew, at frames that were no keyframes"
+run "$oneac" simulate -o "$scratch/dark" --frames 24 --night --scenery far --road dark \
+  --width 320 --height 240 --focal 250
+expect_code 0
+run "$scratch/consumer/closed_drive" "$scratch/dark/simulated.rawlog" 1.5
+expect_code 0
+expect_output "0 loops"
+
 case_name "every module can be found, included and linked"
 build_against_moved all_modules
 run "$scratch/all_modules/all_modules"

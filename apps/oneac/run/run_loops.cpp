@@ -34,10 +34,10 @@ std::vector<LoopKeyframe> loop_keyframes(const std::vector<RecordedDrive>& drive
     Keyframe before;
     for (std::size_t i = 0; i < record.keyframes.size(); ++i) {
       Keyframe now = record.keyframes[i];
-      LoopKeyframe keyframe = to_loop_keyframe(now, i > 0 ? &before : nullptr, steps_of(record));
+      LoopKeyframe keyframe = to_loop_keyframe(now, i > 0 ? &before : nullptr, steps_of(record),
+                                               record.common_length_sigma);
       keyframe.log = log;
       keyframe.id += first_id;
-      if (keyframe.scale_sigma == 0.0) keyframe.scale_sigma = record.common_length_sigma;
       all.push_back(keyframe);
       before = std::move(now);
     }

@@ -47,7 +47,7 @@ OdometryStep metre() {
 LoopKeyframes keyframes_of(std::vector<FrameResult> frames,
                            std::vector<Keyframe> keyframes = {keyframe(0, 0), keyframe(1, 2),
                                                               keyframe(2, 5)}) {
-  LoopKeyframes made;
+  LoopKeyframes made(0.05);
   frames[3].settled.keyframes = {keyframes[0], keyframes[1]};
   for (const FrameResult& result : frames) made.add(result);
   made.add(settled({keyframes[2]}));
@@ -74,7 +74,7 @@ TEST(LoopKeyframes, KeepWhatTheKeyframesSay) {
   EXPECT_TRUE(last.metric);
   EXPECT_EQ(last.T_first_cam.translation().z(), 5.0);
   EXPECT_EQ(last.scale_sigma, 0.02);
-  EXPECT_EQ(made.settled().front().scale_sigma, 0.0);  // no step leads there
+  EXPECT_EQ(made.settled().front().scale_sigma, 0.05) << "no step leads there";
 }
 
 TEST(LoopKeyframes, NothingIsKnownOverALoss) {
@@ -88,12 +88,22 @@ TEST(LoopKeyframes, NothingIsKnownOverALoss) {
                   .covariance.isZero());
 }
 
+TEST(LoopKeyframes, ANewMapBeginsWhereTheLastEnded) {
+  Keyframe again = keyframe(2, 2);
+  again.segment = 1;
+  const LoopKeyframe made =
+      keyframes_of(six(), {keyframe(0, 0), keyframe(1, 2), again}).settled()[2];
+  EXPECT_EQ(made.scale_sigma, 0.02) << "of the step to that frame";
+  EXPECT_TRUE(made.covariance.isZero());
+}
+
 TEST(LoopKeyframes, AStepWithoutMetresMayBeOfAnyLength) {
   std::vector<FrameResult> frames = six();
   frames[1].step->metric = frames[2].step->metric = false;
   frames[1].step->length = frames[2].step->length = 3.0;
   const LoopKeyframe made = keyframes_of(std::move(frames)).settled()[1];
   EXPECT_NEAR(made.covariance(2, 2), 2.0 * 9.0 * (1.0 + 1e-4), 1e-6);
+  EXPECT_EQ(made.scale_sigma, 0.05) << "what all lengths share";
 }
 
 }  // namespace

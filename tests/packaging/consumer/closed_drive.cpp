@@ -11,7 +11,6 @@
 #include <cstdlib>
 #include <exception>
 #include <map>
-#include <utility>
 #include <vector>
 
 namespace {
@@ -19,18 +18,17 @@ namespace {
 struct Drive {
   oneac::LoopCamera camera;
   std::vector<oneac::LoopKeyframe> keyframes;
-  std::map<std::size_t, oneac::GreyImage> images;  // by Keyframe::id
+  std::map<std::size_t, oneac::FrameTicket> images;  // by LoopKeyframe::index, read once more
 };
 
-Drive drive_through(oneac::RawlogSource& source, oneac::FrontEnd& front_end) {
+Drive drive_through(oneac::RawlogSource& source, const oneac::FrontEndOptions& options) {
+  oneac::FrontEnd front_end(options);
+  front_end.logging_enable_console_output = false;  // the poses go there
   Drive drive;
-  oneac::LoopKeyframes keyframes;
+  oneac::LoopKeyframes keyframes(options.scale.road_uncertainty);
   while (const auto ticket = source.next()) {
-    oneac::CameraFrame frame = source.load(*ticket);
-    oneac::GreyImage image = frame.image;
-    const oneac::FrameResult result = front_end.process(front_end.prepare(std::move(frame)));
-    if (result.keyframe) drive.images[*result.keyframe] = std::move(image);
-    keyframes.add(result);
+    keyframes.add(front_end.process(front_end.prepare(source.load(*ticket))));
+    drive.images.emplace(ticket->index, *ticket);
   }
   keyframes.add(front_end.finish());
   drive.keyframes = keyframes.settled();
@@ -40,8 +38,10 @@ Drive drive_through(oneac::RawlogSource& source, oneac::FrontEnd& front_end) {
   return drive;
 }
 
-oneac::ClosedGraph close(const Drive& drive) {
-  const auto image = [&](std::size_t at) { return drive.images.at(drive.keyframes[at].id); };
+oneac::ClosedGraph close(const Drive& drive, const oneac::RawlogSource& source) {
+  const auto image = [&](std::size_t at) {
+    return source.load(drive.images.at(drive.keyframes[at].index)).image;
+  };
   oneac::LoopCloser closer({}, drive.camera, image);
   for (std::size_t i = 0; i < drive.keyframes.size(); ++i) {
     closer.add(drive.keyframes[i], closer.features(image(i).view()));
@@ -58,11 +58,9 @@ int main(int argc, char** argv) {
   oneac::SourceOptions log;
   log.log = argv[1];
   try {
-    oneac::FrontEnd front_end(options);
-    front_end.logging_enable_console_output = false;  // the poses go there
     oneac::RawlogSource source(log);
-    const Drive drive = drive_through(source, front_end);
-    const oneac::ClosedGraph closed = close(drive);
+    const Drive drive = drive_through(source, options);
+    const oneac::ClosedGraph closed = close(drive, source);
     for (std::size_t i = 0; i < closed.T_first_cam.size(); ++i) {
       const double time = drive.keyframes[i].time_s;
       std::fputs(oneac::tum_line(time, closed.T_first_cam[i]).c_str(), stdout);

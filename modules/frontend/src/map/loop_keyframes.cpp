@@ -30,7 +30,7 @@ Eigen::Matrix<double, 6, 6> covariance_between(const Keyframe& before, const Key
 }
 
 LoopKeyframe to_loop_keyframe(const Keyframe& keyframe, const Keyframe* before,
-                              const StepTo& step_to) {
+                              const StepTo& step_to, double shared_sigma) {
   LoopKeyframe out;
   out.id = keyframe.id;
   out.index = keyframe.index;
@@ -39,7 +39,7 @@ LoopKeyframe to_loop_keyframe(const Keyframe& keyframe, const Keyframe* before,
   out.metric = keyframe.metric;
   out.T_first_cam = keyframe.T_first_cam;
   const std::optional<StepResult> step = step_to(keyframe.frame);
-  if (step && step->metric) out.scale_sigma = step->length_sigma;
+  out.scale_sigma = step && step->metric ? step->length_sigma : shared_sigma;
   if (before != nullptr) out.covariance = covariance_between(*before, keyframe, step_to);
   return out;
 }
@@ -56,7 +56,8 @@ void LoopKeyframes::add(const Settled& settled) {
     return found == steps_.end() ? std::nullopt : std::optional(found->second);
   };
   for (const Keyframe& keyframe : settled.keyframes) {
-    keyframes_.push_back(to_loop_keyframe(keyframe, last_ ? &*last_ : nullptr, step_to));
+    keyframes_.push_back(
+        to_loop_keyframe(keyframe, last_ ? &*last_ : nullptr, step_to, shared_sigma_));
     last_ = keyframe;
     last_->points.clear();
     steps_.erase(steps_.begin(), steps_.lower_bound(keyframe.frame));

@@ -23,15 +23,19 @@ using StepTo = std::function<std::optional<StepResult>(std::size_t frame)>;
                                                              const Keyframe& keyframe,
                                                              const StepTo& step_to);
 
-/// A keyframe as LoopCloser takes it. Its scale_sigma is that of the step to it, 0 where that is
-/// not in metres.
-/// @param before  the keyframe before; null for the first of a drive
+/// A keyframe as LoopCloser takes it.
+/// @param before        the keyframe before; null for the first of a drive
+/// @param shared_sigma  relative 1σ that all lengths of the drive share: scale_sigma where the step
+///                      to the keyframe is not in metres
 [[nodiscard]] LoopKeyframe to_loop_keyframe(const Keyframe& keyframe, const Keyframe* before,
-                                            const StepTo& step_to);
+                                            const StepTo& step_to, double shared_sigma);
 
 /// The keyframes of a drive as they settle, for LoopCloser.
 class LoopKeyframes {
  public:
+  /// @param shared_sigma  as of to_loop_keyframe(); by the road scale.road_uncertainty
+  explicit LoopKeyframes(double shared_sigma) : shared_sigma_(shared_sigma) {}
+
   /// What FrontEnd::process() or feed() gave, all of it in its order.
   void add(const FrameResult& result);
   /// What FrontEnd::finish() gave.
@@ -40,6 +44,7 @@ class LoopKeyframes {
   [[nodiscard]] const std::vector<LoopKeyframe>& settled() const { return keyframes_; }
 
  private:
+  double shared_sigma_;
   std::size_t frames_ = 0;
   std::map<std::size_t, StepResult> steps_;  ///< by frame: from the last settled keyframe on
   std::optional<Keyframe> last_;             ///< without its points
