@@ -213,12 +213,12 @@ TEST(GroundScale, LooksNoFartherAsideThanTwoLanes) {
   SceneGenerator scene(35);
   const RelativePose T{Eigen::Matrix3d::Identity(), {0.3, 0.0, 0.0}};
   const auto road = plane_induced_homography(T, {Eigen::Vector3d::UnitY(), 1.0});
-  const auto roofs = plane_induced_homography(T, {Eigen::Vector3d::UnitY(), 0.3});
+  const auto roofs = plane_induced_homography(T, {Eigen::Vector3d::UnitY(), 0.6});
   std::vector<AffineCorrespondence> acs;
   while (acs.size() < 200) {
     const Eigen::Vector2d x1 = scene.image_point(0.05, 0.5);
-    const double aside = 1.0 / x1.y(), on_roof = 0.3 / x1.y();
-    const bool roof = on_roof > 4.5 && on_roof < 6.0;
+    const double aside = 1.0 / x1.y(), on_roof = 0.6 / x1.y();
+    const bool roof = on_roof > 3.0 && on_roof < 5.0;
     if (!roof && (aside > 4.0 || acs.size() % 8 != 0)) continue;
     acs.push_back(*correspondence_from_homography(roof ? roofs : road, x1));
   }
