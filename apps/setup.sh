@@ -59,17 +59,25 @@ install_packages() {
     apt-get install -y -qq --no-install-recommends $missing >/dev/null
 }
 
-# build_preset PRESET [TARGET...]: configures when there is no build folder yet, then builds.
+# configure_preset PRESET [FLAG...]: when there is no build folder yet.
+configure_preset() {
+  local preset=$1 log
+  shift
+  [ ! -f "$oneac_root/build/$preset/build.ninja" ] || return 0
+  log=$(mktemp)
+  (cd "$oneac_root" && cmake --preset "$preset" "$@") >"$log" 2>&1 || {
+    cat "$log" >&2
+    rm -f "$log"
+    return 1
+  }
+  rm -f "$log"
+}
+
+# build_preset PRESET [TARGET...]: configures, then builds.
 build_preset() {
   local preset=$1
   shift
-  if [ ! -f "$oneac_root/build/$preset/build.ninja" ]; then
-    (cd "$oneac_root" && cmake --preset "$preset" >"/tmp/oneac-configure.$$" 2>&1) || {
-      cat "/tmp/oneac-configure.$$" >&2
-      return 1
-    }
-    rm -f "/tmp/oneac-configure.$$"
-  fi
+  configure_preset "$preset" || return
   (cd "$oneac_root" && cmake --build --preset "$preset" ${1:+--target "$@"})
 }
 
