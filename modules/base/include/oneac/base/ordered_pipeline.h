@@ -1,10 +1,14 @@
 #pragma once
 
-#include <algorithm>
+#include "oneac/base/task_queue.h"
+
+#include <cstddef>
 #include <deque>
 #include <exception>
 #include <future>
+#include <memory>
 #include <optional>
+#include <type_traits>
 #include <utility>
 
 namespace oneac {
@@ -17,7 +21,9 @@ namespace oneac {
 /// @param next     called on this thread; the next item, or nothing at the end
 /// @param map      called on a worker; a pure function of the item
 /// @param consume  called on this thread with each result in order; returning false stops
-/// @param threads  number of items mapped at once, at least 1; 1 runs everything on this thread
+/// @param threads  number of items mapped at once, at least 1; 1 runs everything on this thread.
+///                 Up to twice as many are waiting or done, so that one that takes long holds up
+///                 nobody
 template <class Next, class Map, class Consume>
 void ordered_pipeline(Next&& next, Map&& map, Consume&& consume, int threads) {
   if (threads <= 1) {
@@ -31,6 +37,8 @@ void ordered_pipeline(Next&& next, Map&& map, Consume&& consume, int threads) {
   std::deque<std::future<Result>> in_flight;
   bool more = true;
   std::exception_ptr fault;  // of `next`: what is in flight comes first
+  const auto most = 2 * static_cast<std::size_t>(threads);
+  TaskQueue queue(threads);  // ends before what its tasks use
   const auto next_item = [&]() -> decltype(next()) {
     try {
       return next();
@@ -40,13 +48,15 @@ void ordered_pipeline(Next&& next, Map&& map, Consume&& consume, int threads) {
     }
   };
   const auto fill = [&] {
-    while (more && in_flight.size() < static_cast<std::size_t>(threads)) {
+    while (more && in_flight.size() < most) {
       auto item = next_item();
       more = item.has_value();
       if (!more) return;
-      in_flight.push_back(
-          std::async(std::launch::async,
-                     [&map, moved = std::move(*item)]() mutable { return map(std::move(moved)); }));
+      // A std::function is copied, the task and its item are not.
+      const auto task = std::make_shared<std::packaged_task<Result()>>(
+          [&map, moved = std::move(*item)]() mutable { return map(std::move(moved)); });
+      in_flight.push_back(task->get_future());
+      queue.add([task] { (*task)(); });
     }
   };
   for (fill(); !in_flight.empty(); fill()) {
