@@ -77,6 +77,15 @@ TEST(LoopKeyframes, KeepWhatTheKeyframesSay) {
   EXPECT_EQ(made.settled().front().scale_sigma, 0.05) << "no step leads there";
 }
 
+TEST(LoopKeyframes, HaveNoMetresWhereALengthWasHeld) {
+  std::vector<FrameResult> frames = six();
+  frames[2].step->metric = false;
+  const LoopKeyframes made = keyframes_of(std::move(frames));
+  EXPECT_TRUE(made.settled()[0].metric) << "no step leads there";
+  EXPECT_FALSE(made.settled()[1].metric);
+  EXPECT_TRUE(made.settled()[2].metric);
+}
+
 TEST(LoopKeyframes, NothingIsKnownOverALoss) {
   std::vector<FrameResult> frames = six();
   frames[4].step->status = StepStatus::kPredicted;

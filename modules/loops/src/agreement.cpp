@@ -173,7 +173,9 @@ bool may_meet(std::size_t a, std::size_t b, const Chain& chain) {
 }
 
 bool is_possible(const LoopConstraint& loop, const Chain& chain) {
-  if (!chain.known(loop.first, loop.second)) return true;
+  if (!chain.known(loop.first, loop.second)) {
+    return chain.can_be_driven(loop.first, loop.second, of_loop(loop).T);
+  }
   const UncertainPose error = chain.between(loop.first, loop.second) * inverse(of_loop(loop));
   return squared_distance(error, kDoubt) < kChi2;
 }

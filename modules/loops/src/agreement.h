@@ -9,7 +9,8 @@
 
 namespace oneac::internal {
 
-/// Whether the odometry's way from one keyframe to the other allows the loop.
+/// Whether the odometry's way from one keyframe to the other allows the loop; where tracking was
+/// lost between them, whether a car could have driven so far in that time.
 [[nodiscard]] bool is_possible(const LoopConstraint& loop, const Chain& chain);
 
 /// Whether the odometry allows that the two keyframes see one place at all: before anything is

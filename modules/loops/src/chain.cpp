@@ -15,6 +15,10 @@ constexpr double kScaleMemory_m = 60.0;
 // [m², rad²] of a step that nothing is known of: anywhere, any heading.
 constexpr double kAnywhere_m2 = 1e6, kAnyHeading = 10.0;
 constexpr double kLeap_m = 1e7;  // [m] from a part to the next
+// What no car on a road does: a fast one's 0 to 100 km/h in 5.5 s, and the unlimited motorway.
+constexpr double kMostAcceleration = 5.0;  // [m/s²]
+constexpr double kFastest = 70.0;          // [m/s]
+constexpr double kSlack_m = 5.0;           // [m] of drift on either side, and of the loop
 
 Matrix6 carried(const Matrix6& covariance, const Eigen::Isometry3d& T) {
   const Matrix6 A = adjoint(T);
@@ -92,21 +96,49 @@ UncertainPose of_loop(const LoopConstraint& loop) {
 void Chain::add(const LoopKeyframe& keyframe) {
   const Eigen::Isometry3d& here = keyframe.T_first_cam;
   const bool first = poses_.empty();
-  const bool goes_on = !first && keyframe.log == log_ && is_known(keyframe.covariance);
+  const bool goes_on =
+      !first && keyframe.log == stretches_.back().log && is_known(keyframe.covariance);
   Matrix6 sum = Matrix6::Zero();
   double driven = first ? 0.0 : driven_.back() + kLeap_m;
   if (goes_on) {
     sum = sums_.back() + carried(keyframe.covariance, here);
     driven = driven_.back() + (here.translation() - poses_.back().translation()).norm();
   }
-  parts_.push_back(first ? 0 : parts_.back() + (goes_on ? 0 : 1));
+  if (goes_on) {
+    stretches_.back().last = poses_.size();
+  } else {
+    stretches_.push_back({poses_.size(), poses_.size(), keyframe.log});
+  }
+  parts_.push_back(stretches_.size() - 1);
+  times_.push_back(keyframe.time_s);
   poses_.push_back(here);
   sums_.push_back(sum);
   driven_.push_back(driven);
   scale_sigma_.push_back(keyframe.scale_sigma);
-  log_ = keyframe.log;
   const double begin = knots_.empty() ? 0.0 : driven_[knots_.back()];
   if (driven - begin >= kScaleMemory_m) knots_.push_back(poses_.size() - 1);
+}
+
+double Chain::speed(std::size_t keyframe, std::size_t neighbour) const {
+  const double seconds = std::abs(times_[keyframe] - times_[neighbour]);
+  const double way = (poses_[keyframe].translation() - poses_[neighbour].translation()).norm();
+  return seconds > 0.0 ? std::min(way / seconds, kFastest) : kFastest;
+}
+
+bool Chain::can_be_driven(std::size_t a, std::size_t b, const Eigen::Isometry3d& T_a_b) const {
+  if (a > b) return can_be_driven(b, a, T_a_b.inverse());
+  const Part& from = stretches_[parts_[a]];
+  const Part& to = stretches_[parts_[b]];
+  const double seconds = times_[to.first] - times_[from.last];
+  if (known(a, b) || from.log != to.log || !(seconds > 0.0)) return true;
+  const Eigen::Isometry3d T_end_begin =
+      poses_[from.last].inverse() * poses_[a] * T_a_b * poses_[b].inverse() * poses_[to.first];
+  // Faster and faster for half of the time, then slower and slower.
+  const double before = from.last > from.first ? speed(from.last, from.last - 1) : kFastest;
+  const double after = to.last > to.first ? speed(to.first, to.first + 1) : kFastest;
+  const double usual = 0.5 * (before + after);
+  const double most = std::min(usual + 0.25 * kMostAcceleration * seconds, kFastest) * seconds;
+  return T_end_begin.translation().norm() < most + kSlack_m;
 }
 
 Eigen::Matrix3d Chain::scale_covariance(std::size_t a, std::size_t b) const {

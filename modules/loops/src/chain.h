@@ -46,18 +46,30 @@ class Chain {
   [[nodiscard]] std::size_t part(std::size_t keyframe) const { return parts_[keyframe]; }
   [[nodiscard]] bool known(std::size_t a, std::size_t b) const { return parts_[a] == parts_[b]; }
   [[nodiscard]] std::size_t size() const { return poses_.size(); }
+  /// Whether a car gets from one part of a log to a later one in the time between, were keyframe b
+  /// at T_a_b. Of two logs, and within a part, anything is.
+  [[nodiscard]] bool can_be_driven(std::size_t a, std::size_t b,
+                                   const Eigen::Isometry3d& T_a_b) const;
 
  private:
   /// Of lengths, [m²] of the first camera's frame: a stretch of the way is wrong by one factor.
   [[nodiscard]] Eigen::Matrix3d scale_covariance(std::size_t a, std::size_t b) const;
 
+  struct Part {
+    std::size_t first, last;  ///< keyframes
+    std::size_t log;
+  };
+  /// [m/s] between a keyframe and a neighbour of its part; the fastest where it has none.
+  [[nodiscard]] double speed(std::size_t keyframe, std::size_t neighbour) const;
+
+  std::vector<Part> stretches_;
+  std::vector<double> times_;
   std::vector<Eigen::Isometry3d> poses_;
   std::vector<std::size_t> parts_;
   std::vector<double> driven_;
   std::vector<double> scale_sigma_;
   std::vector<Matrix6> sums_;       ///< of a part's steps, carried to the first camera's frame
   std::vector<std::size_t> knots_;  ///< keyframes where stretches end
-  std::size_t log_ = 0;             ///< of the last keyframe
 };
 
 }  // namespace oneac::internal

@@ -54,6 +54,41 @@ TEST(Chain, LengthsOfAStretchAreWrongByOneFactor) {
   EXPECT_LT(std::sqrt(way.covariance(1, 1)), 0.01 * 58.0);
 }
 
+/// 10 m/s, ten keyframes a second; nothing is known of the 2.1 s after the 40th, in which a car
+/// drives 21 m, or 27 m as fast as it can.
+std::vector<LoopKeyframe> with_a_gap() {
+  std::vector<Eigen::Isometry3d> truth;
+  for (int i = 0; i < 80; ++i) truth.push_back(test::pose_at(0.0, i, 0.0));
+  auto keyframes = test::drifted(truth, 0.0);
+  for (std::size_t i = 0; i < keyframes.size(); ++i) {
+    keyframes[i].time_s = 0.1 * static_cast<double>(i) + (i < 40 ? 0.0 : 2.0);
+  }
+  keyframes[40].covariance.setZero();
+  return keyframes;
+}
+
+TEST(Chain, NoCarLeapsOverAGap) {
+  const Chain chain = test::chain_of(with_a_gap());
+  const auto can = [&](double ahead) {  // of keyframe 35 is keyframe 45: 4 m and 5 m from the gap
+    const Eigen::Isometry3d T = test::pose_at(0.0, ahead, 0.0);
+    EXPECT_EQ(chain.can_be_driven(35, 45, T), chain.can_be_driven(45, 35, T.inverse()));
+    return chain.can_be_driven(35, 45, T);
+  };
+  EXPECT_TRUE(can(30.0));
+  EXPECT_FALSE(can(60.0));
+  EXPECT_FALSE(can(-30.0)) << "a street that looks like the one before";
+}
+
+TEST(Chain, ALongGapOrAnotherLogBoundsNothing) {
+  auto keyframes = with_a_gap();
+  const Eigen::Isometry3d far = test::pose_at(0.0, -400.0, 0.0);
+  for (std::size_t i = 40; i < keyframes.size(); ++i) keyframes[i].time_s += 20.0;
+  EXPECT_TRUE(test::chain_of(keyframes).can_be_driven(35, 45, far));
+  keyframes = with_a_gap();
+  for (std::size_t i = 40; i < keyframes.size(); ++i) keyframes[i].log = 1;
+  EXPECT_TRUE(test::chain_of(keyframes).can_be_driven(35, 45, far));
+}
+
 TEST(Chain, KnowsNothingBeyondAStepThatIsUnknown) {
   auto keyframes = test::drifted(test::square_drive(40.0, 1), 0.0);
   keyframes[10].covariance.setZero();

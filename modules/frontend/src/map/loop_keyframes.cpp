@@ -36,9 +36,10 @@ LoopKeyframe to_loop_keyframe(const Keyframe& keyframe, const Keyframe* before,
   out.index = keyframe.index;
   out.time_s = keyframe.time_s;
   out.segment = keyframe.segment;
-  out.metric = keyframe.metric;
   out.T_first_cam = keyframe.T_first_cam;
   const std::optional<StepResult> step = step_to(keyframe.frame);
+  // A map that has metres may have had none here: a length that is held is no measurement.
+  out.metric = keyframe.metric && (!step || step->metric);
   out.scale_sigma = step && step->metric ? step->length_sigma : shared_sigma;
   if (before != nullptr) out.covariance = covariance_between(*before, keyframe, step_to);
   return out;
