@@ -52,6 +52,12 @@ TEST(StereoTravel, TellsAStandstill) {
   EXPECT_LT(travel->sigma, 0.01);
 }
 
+TEST(StereoTravel, WhatRestsWhereTheCarMayBeTellsNoStandstill) {
+  TwoView seen = seen_over(0.0, 100);
+  for (Correspondence& ac : seen.pair.correspondences) ac.depth->z *= 0.1;  // 0.4 to 2.5 m
+  EXPECT_FALSE(stereo_travel(seen, kAhead, 8).has_value());
+}
+
 TEST(StereoTravel, DoesNotTakeTheMotionOfACarThatCrossesForItsOwn) {
   TwoView seen = seen_over(0.0, 60);
   TwoView car = seen_over(0.4, 40, 2);  // its points move by themselves
