@@ -14,8 +14,15 @@ class BadInitialiser : public oneac::RelativePoseInitialiser {
   DEFINE_MRPT_OBJECT(BadInitialiser, mine)
 
  public:
-  std::string name() const override { return "bad"; }
-  void configure(const mrpt::containers::yaml&) override {}
+  std::string name() const override {
+    const char* const asked = std::getenv("ONEAC_BAD_NAME");
+    if (asked != nullptr && std::string(asked) == "throw") throw 42;
+    return asked == nullptr ? "bad" : asked;
+  }
+  void configure(const mrpt::containers::yaml&) override {
+    const char* const asked = std::getenv("ONEAC_BAD_ANSWER");
+    if (asked != nullptr && std::string(asked) == "configure") throw 42;
+  }
 
   oneac::InitialiserResult estimate(const oneac::InitialiserInput& input) const override {
     const char* const asked = std::getenv("ONEAC_BAD_ANSWER");
@@ -30,6 +37,7 @@ class BadInitialiser : public oneac::RelativePoseInitialiser {
     if (how == "huge") result.pose.R *= 1e308;
     if (how == "short") result.inliers.resize(3);
     if (how == "status") result.status = static_cast<oneac::PoseStatus>(99);
+    if (how == "uncounted") result.statistics.iterations = ~std::size_t{0};
     if (how == "throw") throw std::runtime_error("boom");
     return result;
   }

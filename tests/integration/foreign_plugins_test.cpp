@@ -5,6 +5,7 @@
 #include <cstdlib>
 #include <filesystem>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace oneac {
@@ -16,8 +17,11 @@ class ForeignPlugins : public DriveFixture {
  protected:
   static constexpr std::size_t kPairs = kFrames - 1;
 
-  void SetUp() override { ::unsetenv("ONEAC_BAD_ANSWER"); }
-  void TearDown() override { ::unsetenv("ONEAC_BAD_ANSWER"); }
+  void SetUp() override {
+    ::unsetenv("ONEAC_BAD_ANSWER");
+    ::unsetenv("ONEAC_BAD_NAME");
+  }
+  void TearDown() override { SetUp(); }
 
   [[nodiscard]] ProgramResult compare(const fs::path& plugin, const std::string& folder) const {
     return oneac_program({"compare", log(), "-o", (scratch() / folder).string(), "--plugin",
@@ -33,7 +37,7 @@ std::size_t count(const std::string& text, const std::string& word) {
 
 TEST_F(ForeignPlugins, AnswersThatCannotBeAreFailuresByNameAndPair) {
   int answer = 0;
-  for (const char* how : {"nan", "zero", "huge", "short", "status", "throw"}) {
+  for (const char* how : {"nan", "zero", "huge", "short", "status", "uncounted", "throw"}) {
     ::setenv("ONEAC_BAD_ANSWER", how, 1);
     const std::string folder = "answer-" + std::to_string(answer++);
     const ProgramResult result = compare(ONEAC_BAD_PLUGIN, folder);
@@ -46,6 +50,34 @@ TEST_F(ForeignPlugins, AnswersThatCannotBeAreFailuresByNameAndPair) {
     EXPECT_EQ(pairs.find("nan"), std::string::npos) << how;
     EXPECT_EQ(result.out.find("nan"), std::string::npos) << how;
     EXPECT_NE(result.out.find("| **Failures** | bad | 7 |"), std::string::npos) << result.out;
+  }
+}
+
+TEST_F(ForeignPlugins, AMethodThatCannotBeConfiguredIsNamed) {
+  ::setenv("ONEAC_BAD_ANSWER", "configure", 1);
+  for (const ProgramResult& result :
+       {compare(ONEAC_BAD_PLUGIN, "configured"),
+        oneac_program({"run", log(), "-o", out(), "--plugin", ONEAC_BAD_PLUGIN, "--initialiser",
+                       "bad", "--no-progress"})}) {
+    EXPECT_EQ(result.exit_code, 2);
+    EXPECT_EQ(count(result.err, "\n"), 1U) << result.err;
+    EXPECT_NE(result.err.find("initialiser 'bad': its configure() threw"), std::string::npos)
+        << result.err;
+  }
+}
+
+TEST_F(ForeignPlugins, ANameThatIsTakenOrNoneIsRefused) {
+  const std::vector<std::pair<const char*, const char*>> refused = {
+      {"5pc", "an initialiser called 5pc, and there is one already"},
+      {"", "must be a word without comma"},
+      {"a,b", "must be a word without comma"},
+      {"throw", "name() of its initialiser threw"}};
+  for (const auto& [name, words] : refused) {
+    ::setenv("ONEAC_BAD_NAME", name, 1);
+    const ProgramResult result = compare(ONEAC_BAD_PLUGIN, "named");
+    EXPECT_EQ(result.exit_code, 2) << name;
+    EXPECT_NE(result.err.find(words), std::string::npos) << result.err;
+    EXPECT_NE(result.err.find("bad_initialiser"), std::string::npos) << result.err;
   }
 }
 

@@ -2,6 +2,7 @@
 
 #include "oneac/base/error.h"
 #include "oneac/base/nearest_name.h"
+#include "oneac/initialisers/checked_answer.h"
 
 #include <mrpt/containers/yaml.h>
 
@@ -102,7 +103,7 @@ RelativePoseInitialiser::Ptr make_method(const CompareMethod& method,
   if (!parameters.empty()) yaml = mrpt::containers::yaml::FromText(parameters);
   // A method with an estimator of its own has nothing to choose.
   if (initialiser->estimators().size() > 1) yaml["estimator"] = method.estimator;
-  initialiser->configure(yaml);
+  configure_checked(*initialiser, yaml);
   return initialiser;
 }
 

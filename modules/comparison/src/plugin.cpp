@@ -2,21 +2,27 @@
 
 #include "oneac/base/error.h"
 #include "oneac/base/input_file.h"
+#include "oneac/base/printable.h"
+#include "oneac/initialisers/checked_answer.h"
 #include "oneac/initialisers/plugin_stamp.h"
 
 #include <dlfcn.h>
 
+#include <algorithm>
 #include <cstring>
+#include <exception>
 #include <fstream>
 #include <iterator>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace oneac {
 namespace {
 
 namespace fs = std::filesystem;
 
+constexpr std::size_t kLongestName = 60;  // [byte] of a stranger's word in a message
 constexpr const char* kRebuild =
     "build it with oneac_plugin() against this oneac, with the compiler and flags of this oneac";
 
@@ -67,6 +73,36 @@ void require_same_build(const fs::path& library) {
   }
 }
 
+/// @param before  sorted, of those that were there
+void require_new_names(const fs::path& library, const std::vector<std::string>& before) {
+  constexpr const char* kSee = "see docs/my-own-initialiser.md";
+  std::vector<std::string> names;
+  try {
+    names = initialiser_names();
+  } catch (const std::exception& error) {
+    throw InputError(library.string(), "name() of its initialiser threw: " + told(error), kSee);
+  } catch (...) {
+    throw InputError(library.string(), "name() of its initialiser threw", kSee);
+  }
+  if (names.size() == before.size()) {
+    throw InputError(library.string(), "registers no initialiser of a new name", kSee);
+  }
+  for (const std::string& name : names) {
+    if (name.empty() || printable(name) != name || name.find(',') != std::string::npos) {
+      throw InputError(library.string(),
+                       "calls an initialiser '" + shortened(printable(name), kLongestName) +
+                           "', must be a word without comma",
+                       kSee);
+    }
+  }
+  const auto twice = std::adjacent_find(names.begin(), names.end());
+  if (twice != names.end()) {
+    throw InputError(library.string(),
+                     "registers an initialiser called " + *twice + ", and there is one already",
+                     "give it a name of its own");
+  }
+}
+
 }  // namespace
 
 void load_plugin(const fs::path& library) {
@@ -75,17 +111,14 @@ void load_plugin(const fs::path& library) {
                      "check the path after --plugin");
   }
   require_same_build(library);
-  const std::size_t before = initialiser_names().size();
+  const std::vector<std::string> before = initialiser_names();
   // An absolute path keeps dlopen from searching the system's folders. Never closed: MRPT's class
   // factory keeps pointers into it.
   if (::dlopen(fs::absolute(library).c_str(), RTLD_NOW | RTLD_LOCAL) == nullptr) {
     throw InputError(library.string(), "cannot be loaded (" + std::string(::dlerror()) + ")",
                      "build it against this version of oneac");
   }
-  if (initialiser_names().size() == before) {
-    throw InputError(library.string(), "registers no initialiser of a new name",
-                     "see docs/my-own-initialiser.md");
-  }
+  require_new_names(library, before);
 }
 
 fs::path find_plugin(const std::string& name) {

@@ -8,6 +8,7 @@
 #include "oneac/base/require.h"
 #include "oneac/base/thread_clock.h"
 #include "oneac/base/workers.h"
+#include "oneac/initialisers/checked_answer.h"
 
 #include <mrpt/containers/yaml.h>
 #include <mrpt/obs/CObservation.h>
@@ -64,7 +65,7 @@ FrontEnd::FrontEnd(const FrontEndOptions& options, int threads)
   options_.validate();
   tracker_ = make_tracker(options_.features, workers_);
   const RelativePoseInitialiser::Ptr initialiser = make_initialiser(options_.initialiser);
-  initialiser->configure(initialiser_yaml(options_));
+  configure_checked(*initialiser, initialiser_yaml(options_));
   odometry_ = std::make_unique<Odometry>(options_, initialiser, workers_.get());
   learner_ = std::make_unique<CameraLearner>(options_.self_calibration);
 }

@@ -50,7 +50,7 @@ TEST(CheckedAnswer, TakesWhatKeepsThePromise) {
   EXPECT_EQ(fault_of_answer(good(), kAcs), "");
   InitialiserResult still = good();
   still.status = PoseStatus::kNoMotion;
-  still.pose.t.setZero();
+  still.pose = {};
   EXPECT_EQ(fault_of_answer(still, kAcs), "");
   EXPECT_EQ(fault_of_answer({}, kAcs), "");  // no pose
 }
@@ -66,6 +66,17 @@ TEST(CheckedAnswer, NamesWhatIsWrong) {
       {"t is not finite", [](auto& a) { a.pose.t.x() = kNan; }},
       {"length 1", [](auto& a) { a.pose.t *= 2.0; }},
       {"length 0", [](auto& a) { a.status = PoseStatus::kNoMotion; }},
+      {"no motion, and its R turns",
+       [](auto& a) {
+         a.status = PoseStatus::kNoMotion;
+         a.pose.t.setZero();
+       }},
+      {"count more than can be", [](auto& a) { a.statistics.iterations = ~std::size_t{0}; }},
+      {"counts 77 inliers of 5",
+       [](auto& a) {
+         a.status = PoseStatus::kTooFew;
+         a.inlier_count = 77;
+       }},
       {"3 inlier flags for 5", [](auto& a) { a.inliers.resize(3); }},
       {"counts 4 inliers and flags 3", [](auto& a) { a.inlier_count = 4; }},
       {"status is none", [](auto& a) { a.status = static_cast<PoseStatus>(77); }},

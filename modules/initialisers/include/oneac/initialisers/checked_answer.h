@@ -3,6 +3,7 @@
 #include "oneac/initialisers/relative_pose_initialiser.h"
 
 #include <cstddef>
+#include <exception>
 #include <string>
 
 namespace oneac {
@@ -18,6 +19,14 @@ struct CheckedAnswer {
   InitialiserResult result;  ///< without a pose where there is a fault
   std::string fault;         ///< what was wrong, or thrown; "" as a rule
 };
+
+/// Configures, whoever wrote it: what is thrown and is no InputError comes out as one that names
+/// the method. @throws InputError
+void configure_checked(RelativePoseInitialiser& initialiser,
+                       const mrpt::containers::yaml& parameters);
+
+/// What an error of a stranger says, short and printable.
+[[nodiscard]] std::string told(const std::exception& error);
 
 /// Asks and checks: what is thrown and what cannot be is no pose, with the reason.
 [[nodiscard]] CheckedAnswer checked_answer(const RelativePoseInitialiser& initialiser,

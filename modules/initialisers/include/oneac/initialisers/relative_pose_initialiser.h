@@ -66,7 +66,11 @@ class RelativePoseInitialiser : public mrpt::rtti::CObject, public mrpt::system:
                              // built
 #include "oneac/initialisers/plugin_stamp.h"
 namespace {
-[[gnu::used]] constexpr oneac::PluginStamp kOneacPluginStamp =
-    oneac::plugin_stamp(ONEAC_PLUGIN_VERSION);
+#if __has_attribute(retain)  // a linker that drops what nobody refers to keeps it
+[[gnu::used, gnu::retain]]
+#else
+[[gnu::used]]
+#endif
+constexpr oneac::PluginStamp kOneacPluginStamp = oneac::plugin_stamp(ONEAC_PLUGIN_VERSION);
 }  // namespace
 #endif
