@@ -116,6 +116,35 @@ TEST_F(CompareVerb, MergedShardsAreTheWholeComparison) {
   expect_same_results(whole, merged);
 }
 
+TEST_F(CompareVerb, NeitherGoesOnNorMergesWithOtherImages) {
+  const fs::path images = scratch() / "replaced";
+  fs::copy(drive() / "Images", images);
+  const std::vector<std::string> flags = {"--images-dir", images.string()};
+  const auto shard = [&](const char* which, const fs::path& folder) {
+    std::vector<std::string> all = flags;
+    all.insert(all.end(), {"--shard", which});
+    return compare(folder, all);
+  };
+  ASSERT_EQ(shard("0/2", scratch() / "even").exit_code, 0);
+  // As many images with the same names and stamps, in another order.
+  std::vector<fs::path> files;
+  for (const auto& entry : fs::directory_iterator(images)) files.push_back(entry.path());
+  std::sort(files.begin(), files.end());
+  fs::rename(files[0], scratch() / "first");
+  fs::rename(files[3], files[0]);
+  fs::rename(scratch() / "first", files[3]);
+  const ProgramResult resumed = shard("0/2", scratch() / "even");
+  EXPECT_EQ(resumed.exit_code, 2);
+  EXPECT_NE(resumed.err.find("other images than when the journal was begun"), std::string::npos)
+      << resumed.err;
+  ASSERT_EQ(shard("1/2", scratch() / "odd").exit_code, 0);
+  const ProgramResult merged =
+      oneac_program({"compare", "--merge", (scratch() / "even").string(),
+                     (scratch() / "odd").string(), "-o", (scratch() / "merged").string()});
+  EXPECT_EQ(merged.exit_code, 2);
+  EXPECT_NE(merged.err.find("differently: content was"), std::string::npos) << merged.err;
+}
+
 TEST_F(CompareVerb, LeavesOutImagesThatRepeatTheOneBeforeAsRunDoes) {
   const fs::path images = scratch() / "frozen";
   fs::copy(drive() / "Images", images);

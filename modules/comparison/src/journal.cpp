@@ -142,6 +142,22 @@ std::string difference(const std::string& before, const std::string& now) {
   return "the settings differ";
 }
 
+/// What two shards say of one log is the same, or they have seen different ones.
+void require_same_logs(const std::vector<LogRecord>& some, const std::vector<LogRecord>& others) {
+  for (const LogRecord& a : some) {
+    for (const LogRecord& b : others) {
+      if (a.log != b.log) continue;
+      const std::string first = internal::text_of(internal::to_json(b));
+      const std::string second = internal::text_of(internal::to_json(a));
+      if (first == second) continue;
+      throw InputError(
+          "--merge",
+          "the journals tell log " + a.name + " differently: " + difference(first, second),
+          "merge shards of one comparison, of the same images");
+    }
+  }
+}
+
 }  // namespace
 
 JournalContent read_journal(const fs::path& path) {
@@ -254,6 +270,7 @@ ComparisonData merge_journals(const CompareSettings& settings,
                            difference(settings.fingerprint(), journal.settings),
                        "merge shards of one comparison");
     }
+    require_same_logs(journal.logs, data.logs);
     data.pairs.insert(data.pairs.end(), journal.pairs.begin(), journal.pairs.end());
     data.logs.insert(data.logs.end(), journal.logs.begin(), journal.logs.end());
   }

@@ -55,6 +55,7 @@ bool LogRun::begin(Journal& journal) {
   record_.images = scan_.images.size();
   record_.pairs = scan_.pairs();
   record_.last_index = scan_.images.empty() ? 0 : scan_.images.back().index;
+  record_.content = scan_.content;
   if (!learn_tilt()) return false;
   prepare_reference();
   journal.add(record_);
@@ -79,7 +80,11 @@ void LogRun::run(const Methods& methods, const Shard& shard, Journal& journal, s
 
 void LogRun::require_same_images() const {
   const std::size_t last = scan_.images.empty() ? 0 : scan_.images.back().index;
-  if (record_.images == scan_.images.size() && record_.last_index == last) return;
+  if (record_.images == scan_.images.size() && record_.last_index == last) {
+    if (record_.content == scan_.content) return;
+    throw InputError(source_.log.string(), "has other images than when the journal was begun",
+                     "choose an empty folder");
+  }
   throw InputError(source_.log.string(),
                    "has " + std::to_string(scan_.images.size()) + " images now, and had " +
                        std::to_string(record_.images) + " when the journal was begun",

@@ -3,6 +3,10 @@
 #include "oneac/base/error.h"
 #include "oneac/observations/repeat_watch.h"
 
+#include <array>
+#include <cstdint>
+#include <cstring>
+#include <string_view>
 #include <utility>
 
 namespace oneac {
@@ -40,8 +44,9 @@ std::shared_ptr<const FrameFeatures> StreamImage::features() {
 }
 
 PairAcs StreamPair::correspond(const PairExtractor& extractor) const {
-  const auto features1 = first->features();
+  // The pair before this one makes those of the first image: its own first, and neither waits.
   const auto features2 = second->features();
+  const auto features1 = first->features();
   PairAcs pair{extractor.correspond(features1, features2, second->camera()), second->camera()};
   for (AffineCorrespondence& ac : pair.acs) ac = normalise(ac, first->camera(), pair.camera);
   return pair;
@@ -64,6 +69,37 @@ std::optional<StreamPair> PairStream::next() {
 }
 
 namespace {
+
+/// FNV-1a, 64 bits.
+class Fingerprint {
+ public:
+  template <class Number>
+  void add(Number number) {
+    std::array<unsigned char, sizeof number> bytes{};
+    std::memcpy(bytes.data(), &number, sizeof number);
+    add(bytes.data(), bytes.size());
+  }
+  void add(const ImageView& image) {
+    for (int row = 0; row < image.height; ++row) {
+      add(image.data + static_cast<std::ptrdiff_t>(row) * image.stride,
+          static_cast<std::size_t>(image.width));
+    }
+  }
+  [[nodiscard]] std::string text() const {
+    constexpr std::string_view kDigits = "0123456789abcdef";
+    std::string digits;
+    for (unsigned shift = 64; shift > 0;) digits += kDigits[hash_ >> (shift -= 4) & 15U];
+    return digits;
+  }
+
+ private:
+  void add(const unsigned char* bytes, std::size_t count) {
+    constexpr std::uint64_t kPrime = 0x100000001b3;
+    for (std::size_t i = 0; i < count; ++i) hash_ = (hash_ ^ bytes[i]) * kPrime;
+  }
+
+  std::uint64_t hash_ = 0xcbf29ce484222325;
+};
 
 /// Notices images that repeat the one before; decodes those that take as many bytes as it.
 class StoredRepeats {
@@ -107,9 +143,12 @@ LogScan scan_log(const SourceOptions& options) {
   RawlogSource source(options);
   StoredRepeats repeats(source);
   LogScan scan;
+  Fingerprint content;
   while (const auto ticket = source.next()) {
     if (scan.images.empty()) {
-      scan.T_vehicle_cam = source.load(*ticket).T_vehicle_cam;
+      const CameraFrame frame = source.load(*ticket);
+      scan.T_vehicle_cam = frame.T_vehicle_cam;
+      content.add(frame.image.view());
     } else if (!(ticket->time_s > scan.images.back().time_s)) {
       continue;
     }
@@ -119,10 +158,13 @@ LogScan scan_log(const SourceOptions& options) {
       continue;
     }
     scan.images.push_back({ticket->index, ticket->time_s});
+    content.add(ticket->time_s);
+    content.add(source.stored_bytes(*ticket));
   }
   source.finish();
   scan.vehicle = source.report().reference;
   scan.damage = source.report().damage;
+  scan.content = content.text();
   return scan;
 }
 

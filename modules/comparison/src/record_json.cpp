@@ -130,8 +130,11 @@ void take_answer(const Json& json, MethodResult& r) {
   if (!r.has_pose) return;
   r.pose = pose_from(json[9], "the pose of a result");
   const double length = r.pose.t.stableNorm();
-  if (!(length < kUnit || std::abs(length - 1.0) < kUnit)) {
-    fail("the translation of a result", json[9], "of length 0 or 1");
+  const bool travels =
+      r.status == to_string(PoseStatus::kOk) || r.status == to_string(PoseStatus::kOnePlane);
+  if (!(std::abs(length - (travels ? 1.0 : 0.0)) < kUnit)) {
+    fail("the translation of a result " + r.status, json[9],
+         std::string("of length ") + (travels ? "1" : "0"));
   }
 }
 
@@ -271,6 +274,7 @@ Json to_json(const LogRecord& record) {
           {"images", record.images},
           {"pairs", record.pairs},
           {"last_index", record.last_index},
+          {"content", record.content},
           {"tilt", {record.tilt.pitch_up, record.tilt.roll_right}},
           {"reference", record.reference},
           {"course_sigma_deg", record.course_sigma_deg},
@@ -290,6 +294,7 @@ LogRecord log_from(const Json& json, const CompareSettings& settings) {
   const std::size_t pairs = record.images == 0 ? 0 : record.images - 1;
   if (record.pairs != pairs) fail("pairs", json["pairs"], std::to_string(pairs));
   record.last_index = count_in(json.at("last_index"), "last_index");
+  if (json.contains("content")) record.content = printable(json["content"].get<std::string>());
   record.tilt = {number_in(json.at("tilt").at(0), "tilt", -kRightAngle, kRightAngle),
                  number_in(json.at("tilt").at(1), "tilt", -kRightAngle * 2, kRightAngle * 2)};
   record.reference = printable(json.at("reference").get<std::string>());

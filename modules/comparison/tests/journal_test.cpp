@@ -273,6 +273,15 @@ TEST(Journal, RefusesToMergeDifferentComparisons) {
   EXPECT_THROW(static_cast<void>(merge_journals(settings(), {one, other})), InputError);
 }
 
+TEST(Journal, RefusesToMergeShardsThatSawAnotherLog) {
+  JournalContent one, other;
+  one.settings = other.settings = settings().fingerprint();
+  one.logs = other.logs = {log_record()};
+  EXPECT_NO_THROW(static_cast<void>(merge_journals(settings(), {one, other})));
+  other.logs.front().tilt.pitch_up = 0.01;
+  EXPECT_THROW(static_cast<void>(merge_journals(settings(), {one, other})), InputError);
+}
+
 TEST(Settings, SurviveTheJournal) {
   JournalContent content;
   content.settings = settings().fingerprint();

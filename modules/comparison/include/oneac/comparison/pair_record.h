@@ -47,6 +47,7 @@ struct LogRecord {
   std::size_t images = 0;  ///< selected and present
   std::size_t pairs = 0;
   std::size_t last_index = 0;        ///< of the last of these images in the log
+  std::string content;               ///< LogScan::content
   Tilt tilt;                         ///< that every method was given
   std::string reference;             ///< "none", "GPS course" or the file of poses
   double course_sigma_deg = 0.0;     ///< 1σ of a GPS course, 0: not from GPS

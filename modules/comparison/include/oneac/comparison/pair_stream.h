@@ -82,6 +82,8 @@ struct LogScan {
   Eigen::Isometry3d T_vehicle_cam = CameraFrame::forward_looking_mount();
   VehicleReference vehicle;
   std::string damage;  ///< one line when the log ends badly, else ""
+  /// Of stamps and sizes of the images, and of the pixels of the first: another drive has another.
+  std::string content;
 
   [[nodiscard]] std::size_t pairs() const { return images.empty() ? 0 : images.size() - 1; }
 };
