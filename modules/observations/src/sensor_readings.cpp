@@ -59,7 +59,9 @@ double way_between(const GeodeticFix& a, const GeodeticFix& b) {
                     across * std::cos(a.latitude_deg * kDegree) * turned);
 }
 
+/// A receiver that has no fix yet writes 0, 0, a place at sea.
 bool is_on_earth(const GeodeticFix& fix) {
+  if (fix.latitude_deg == 0.0 && fix.longitude_deg == 0.0) return false;
   return std::abs(fix.latitude_deg) <= 90.0 && std::abs(fix.longitude_deg) <= 360.0 &&
          std::abs(fix.height) < SensorLimits::kHighest;
 }

@@ -504,6 +504,15 @@ TEST_F(ImportVideoGps, OfGpx) {
   const ImportReport report = import_with("2024-05-01T10:00:01Z");
   expect_fixes(report, false);
   EXPECT_TRUE(notes(report, "1 points of drive.gpx"));
+  // Backwards, and in the time of Berlin.
+  std::string turned = head + point("48.1175", "2") + point("48.1174", "1") +
+                       point("48.1173", "0") + "</trkseg></trk></gpx>\n";
+  for (auto at = turned.find("T10:"); at != std::string::npos; at = turned.find("T10:", at)) {
+    turned.replace(at, 4, "T12:");
+    turned.replace(turned.find('Z', at), 1, "+02:00");
+  }
+  write_text(options_.gpx, turned);
+  expect_fixes(import_with("2024-05-01T06:30:01-0330"), false);
   const auto said = [&] { return complaint_of([&] { import_video(options_); }); };
   write_text(options_.gpx, head + point("north", "0") + "</trkseg></trk></gpx>\n");
   EXPECT_NE(said().find("drive.gpx: line 3: trkpt has no lat"), std::string::npos) << said();
@@ -518,6 +527,13 @@ TEST_F(ImportVideoGps, OfATable) {
              "1714557601000,48.1174,-11.516667,545.4,41.5,84\n"
              "1714557602000,48.1175,-11.516667,545.4,41.5,84\n1714557700000,48.2,-11.5,545,0,0\n");
   expect_fixes(import_with(), true);
+  // Where a receiver is before its first fix.
+  std::ifstream stream(options_.csv);
+  const std::string table(std::istreambuf_iterator<char>(stream), {});
+  write_text(options_.csv, table + "1714557599000,0,0,0,0,0\n");
+  const ImportReport report = import_with();
+  expect_fixes(report, true);
+  EXPECT_TRUE(notes(report, "1 fixes of drive.csv are void, damaged, at 0, 0"));
   const auto rmc = stored<CObservationGPS>().at(1);
   const auto& fields = rmc->getMsgByClass<mrpt::obs::gnss::Message_NMEA_RMC>().fields;
   EXPECT_NEAR(test::copied(fields.speed_knots), 41.5 / 1.852, 1e-9);

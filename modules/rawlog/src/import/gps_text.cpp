@@ -51,7 +51,7 @@ std::string at(const std::string& file, std::size_t line) {
   return file + ": line " + std::to_string(line);
 }
 
-/// Collects fixes in time order.
+/// Collects fixes.
 class Fixes {
  public:
   Fixes(const fs::path& file, ImportReport& report) : file_(file), report_(report) {}
@@ -65,16 +65,13 @@ class Fixes {
                        "latitude or longitude is beyond the range of degrees",
                        "give decimal degrees, north and east positive");
     }
-    if (!fixes_.empty() && !(fix.time_s > fixes_.back().time_s)) {
-      pass_over();
-      return;
-    }
     fix.label = "gps";
     fixes_.push_back(std::move(fix));
   }
   void pass_over() { ++passed_over_; }
 
   std::vector<GpsRecord> finish() {
+    passed_over_ += put_in_order(fixes_);
     if (fixes_.empty()) {
       throw InputError(file_.string(), "it holds no position with a time",
                        "give the file that the receiver wrote during the drive");
@@ -82,7 +79,7 @@ class Fixes {
     if (passed_over_ > 0) {
       report_.notes.push_back(std::to_string(passed_over_) + " fixes of " +
                               file_.filename().string() +
-                              " are void, damaged or not later than the one before");
+                              " are void, damaged, at 0, 0 or of a moment that is told twice");
     }
     return std::move(fixes_);
   }
@@ -247,6 +244,21 @@ GpsRecord fix_of(const CsvRow& row, const Columns& columns) {
 }
 
 }  // namespace
+
+std::size_t put_in_order(std::vector<GpsRecord>& fixes) {
+  const std::size_t before = fixes.size();
+  const auto nowhere = [](const GpsRecord& fix) {
+    return fix.position.latitude_deg == 0.0 && fix.position.longitude_deg == 0.0;
+  };
+  fixes.erase(std::remove_if(fixes.begin(), fixes.end(), nowhere), fixes.end());
+  std::stable_sort(fixes.begin(), fixes.end(),
+                   [](const GpsRecord& a, const GpsRecord& b) { return a.time_s < b.time_s; });
+  const auto at_once = [](const GpsRecord& a, const GpsRecord& b) {
+    return !(a.time_s < b.time_s);
+  };
+  fixes.erase(std::unique(fixes.begin(), fixes.end(), at_once), fixes.end());
+  return before - fixes.size();
+}
 
 std::vector<GpsRecord> read_nmea(const fs::path& file, ImportReport& report) {
   std::ifstream stream = open_input(file, "check its name");

@@ -3,13 +3,15 @@
 #include "oneac/rawlog/import_report.h"
 #include "oneac/rawlog/sensor_records.h"
 
+#include <cstddef>
 #include <filesystem>
 #include <vector>
 
 namespace oneac {
 
-// Positions of a receiver out of a file of its own, in time order; fixes that are void, or not
-// later than the one before, are passed over and counted in the notes.
+// Positions of a receiver out of a file of its own, in time order; fixes that are void, at 0, 0
+// (where receivers are before their first), or a second time at one moment are passed over and
+// counted in the notes.
 // @throws InputError naming file and line, what is wrong with it and the cure
 
 /// NMEA 0183: RMC sentences (date, position, speed, course) with the altitude and quality of the
@@ -26,5 +28,9 @@ namespace oneac {
 /// GPX: the points of its tracks, with their time and ele.
 [[nodiscard]] std::vector<GpsRecord> read_gpx(const std::filesystem::path& file,
                                               ImportReport& report);
+
+/// Puts fixes in order of time, takes the first of each moment and none at 0, 0.
+/// @return how many were left out
+[[nodiscard]] std::size_t put_in_order(std::vector<GpsRecord>& fixes);
 
 }  // namespace oneac

@@ -92,8 +92,7 @@ class Track {
     return text_.substr(begin, text_.find_last_not_of(" \t\r\n") - begin + 1);
   }
   void finish_point() {
-    const bool later = points_.empty() || point_->time_s > points_.back().time_s;
-    if (point_->time_s == kNoTime || !later) {
+    if (point_->time_s == kNoTime) {
       ++passed_over_;
     } else {
       points_.push_back(*point_);
@@ -148,14 +147,14 @@ std::vector<GpsRecord> read_gpx(const fs::path& file, ImportReport& report) {
       XML_ParserCreate(nullptr), &XML_ParserFree);
   Track track(parser.get());
   parse(parser.get(), track, text, file);
+  const std::size_t passed_over = track.passed_over() + put_in_order(track.points());
   if (track.points().empty()) {
     throw InputError(file.string(), "it holds no trkpt with a time",
                      "export the track with its times");
   }
-  if (track.passed_over() > 0) {
-    report.notes.push_back(std::to_string(track.passed_over()) + " points of " +
-                           file.filename().string() +
-                           " have no time or one that is not later than the one before");
+  if (passed_over > 0) {
+    report.notes.push_back(std::to_string(passed_over) + " points of " + file.filename().string() +
+                           " have no time, one that is told twice, or are at 0, 0");
   }
   return std::move(track.points());
 }

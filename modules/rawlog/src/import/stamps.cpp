@@ -21,6 +21,23 @@
 namespace oneac {
 namespace {
 
+/// "Z", "+02:00", "-0330" or nothing, at the end of a time: seconds east of Greenwich.
+std::optional<double> zone_of(std::string_view text) {
+  if (text.empty() || text == "Z") return 0.0;
+  const bool colon = text.size() == 6 && text[3] == ':';
+  if ((text[0] != '+' && text[0] != '-') || (!colon && text.size() != 5)) return std::nullopt;
+  const auto two = [text](std::size_t at) {
+    int value = 0;
+    const char* begin = text.data() + at;
+    const auto result = std::from_chars(begin, begin + 2, value);
+    return result.ec == std::errc() && result.ptr == begin + 2 && value >= 0 ? value : 99;
+  };
+  const int hours = two(1), minutes = two(colon ? 4 : 3);
+  if (hours > 14 || minutes > 59) return std::nullopt;
+  const double seconds = 3600.0 * hours + 60.0 * minutes;
+  return text[0] == '-' ? -seconds : seconds;
+}
+
 namespace fs = std::filesystem;
 
 constexpr double kUnixTimes_s = 1e8;  // tables count from 0; larger ones are Unix times
@@ -204,8 +221,8 @@ std::optional<double> date_stamp(const std::string& text) {
     if (result.ec != std::errc()) return std::nullopt;
     at = result.ptr;
   }
-  if (at != end && *at == 'Z') ++at;
-  const bool sound = at == end && fields[0] >= 1970 && fields[0] <= 2100 && fields[1] >= 1 &&
+  const auto zone = zone_of({at, static_cast<std::size_t>(end - at)});
+  const bool sound = zone && fields[0] >= 1970 && fields[0] <= 2100 && fields[1] >= 1 &&
                      fields[1] <= 12 && fields[2] >= 1 && fields[2] <= 31 && fields[3] >= 0 &&
                      fields[3] < 24 && fields[4] >= 0 && fields[4] < 60 && fields[5] >= 0 &&
                      fields[5] <= 60;
@@ -217,7 +234,7 @@ std::optional<double> date_stamp(const std::string& text) {
   calendar.tm_hour = fields[3];
   calendar.tm_min = fields[4];
   calendar.tm_sec = fields[5];
-  return static_cast<double>(timegm(&calendar)) + part;
+  return static_cast<double>(timegm(&calendar)) + part - *zone;
 }
 
 std::vector<double> read_date_stamps(const fs::path& file) {
