@@ -60,11 +60,22 @@ bool names_qw_last(std::string_view text) {
   return w > x && x > 0;
 }
 
+bool names_columns(std::string_view text) {
+  return text.substr(0, text.find('\n')).find('q') != std::string_view::npos;
+}
+
+/// EuRoC counts nanoseconds; who writes seconds with commas between has TUM's columns.
+bool is_whole(std::string_view time) {
+  return time.find_first_not_of("+-0123456789") == std::string_view::npos;
+}
+
 std::optional<Form> form_of(std::string_view text, std::string_view first) {
   const std::size_t columns = fields_of(first).size();
   if (has_commas(first)) {
     if (columns < 8) return std::nullopt;
-    return names_qw_last(text) ? Form::kTumCommas : Form::kEuroc;
+    const bool qw_last =
+        names_columns(text) ? names_qw_last(text) : !is_whole(fields_of(first).front());
+    return qw_last ? Form::kTumCommas : Form::kEuroc;
   }
   switch (columns) {
     case 4:
@@ -222,8 +233,9 @@ void require_named_form(const std::filesystem::path& path, Form form, const Text
       (name == ".tum" && form != Form::kTum) || (name == ".kitti" && form != Form::kMatrix);
   if (!misnamed) return;
   throw InputError(where_in(path.string(), first.number),
-                   std::to_string(fields_of(first.text).size()) + " columns, must be " +
-                       (name == ".tum" ? "8" : "12"),
+                   std::to_string(fields_of(first.text).size()) + " columns" +
+                       (has_commas(first.text) ? " behind commas" : "") + ", must be " +
+                       (name == ".tum" ? "8 behind blanks" : "12"),
                    "call a trajectory of another form .txt or .csv");
 }
 
@@ -252,6 +264,10 @@ TrajectoryFile read_trajectory_file(const std::filesystem::path& path) {
   }
   require_named_form(path, *form, lines.front());
   TrajectoryFile result;
+  if (has_commas(lines.front().text) && !names_columns(text)) {
+    result.notes.push_back(file + " names no columns and is read as t, x, y, z, " +
+                           (*form == Form::kEuroc ? "qw, qx, qy, qz" : "qx, qy, qz, qw"));
+  }
   std::vector<Row> rows = rows_of(lines, file, *form);
   if (is_timed(*form)) {
     const TimeUnit unit = unit_of(rows);

@@ -40,8 +40,17 @@ TEST_F(TrajectoryForms, EurocHasNanosecondsAndTheScalarFirst) {
 
 TEST_F(TrajectoryForms, CommasWithTheScalarLastAreToldByTheirNames) {
   const TrajectoryFile file = read("time,x,y,z,qx,qy,qz,qw\n0,0,0,0,0.8,0,0,0.6\n");
-  // The line of names is no comment; without one the order would be EuRoC's.
+  // The line of names is no comment.
   EXPECT_NEAR(Eigen::Quaterniond(file.trajectory.poses[0].linear()).w(), 0.6, 1e-9);
+}
+
+TEST_F(TrajectoryForms, CommasWithoutNamesAreToldByTheUnitOfTheTime) {
+  const TrajectoryFile tum = read("0.5,0,0,0,0.8,0,0,0.6\n0.6,0,0,0,0.8,0,0,0.6\n");
+  EXPECT_NEAR(Eigen::Quaterniond(tum.trajectory.poses[0].linear()).w(), 0.6, 1e-9);
+  ASSERT_EQ(tum.notes.size(), 1U);
+  EXPECT_NE(tum.notes[0].find("names no columns and is read as t, x, y, z, qx"), std::string::npos);
+  const TrajectoryFile euroc = read("1403636579763555584,0,0,0,0.6,0.8,0,0\n");
+  EXPECT_NEAR(Eigen::Quaterniond(euroc.trajectory.poses[0].linear()).w(), 0.6, 1e-9);
 }
 
 TEST_F(TrajectoryForms, SquareMatricesInOneLineOrInFour) {
