@@ -1,4 +1,5 @@
 #include "commands.h"
+#include "terminal/key_flags.h"
 
 #include "oneac/base/error.h"
 #include "oneac/base/printable.h"
@@ -72,7 +73,7 @@ void add_eval(CLI::App& program) {
   verb->add_option("--max-difference", arguments->max_difference_s,
                    "seconds to the nearest row of the reference at most; without it 10 ms, and "
                    "poses are interpolated between rows up to 0.25 s apart")
-      ->check(CLI::PositiveNumber);
+      ->check(above_zero());
   verb->add_option("--offset", arguments->offset,
                    "seconds to be added to the estimate's times, or: estimate (by the turns of "
                    "both)");

@@ -1,6 +1,7 @@
 #include "commands.h"
 #include "simulate/simulate_flags.h"
 #include "terminal/interrupt.h"
+#include "terminal/key_flags.h"
 #include "terminal/progress_bar.h"
 
 #include "oneac/base/atomic_file.h"
@@ -127,8 +128,8 @@ SimulationOptions drive_of(const SimulateArguments& arguments) {
   SimulationOptions options = arguments.options;
   validate(options);
   if (arguments.laps == 0) return options;
-  if (options.route != RouteKind::kBlock) {
-    throw InputError("simulate", "--laps counts those of a block", "add --route block");
+  if (!has_laps(options.route)) {
+    throw InputError("simulate", "--laps counts those of a block", "add --route block or figure8");
   }
   options.frames = frames_for_laps(options, arguments.laps);
   validate(options);
@@ -180,7 +181,7 @@ void simulate(const SimulateArguments& arguments) {
             << "images  " << files.images.string() << " (" << written
             << (arguments.options.stereo ? " pairs" : "") << ")\n"
             << "poses   " << files.poses.string() << '\n';
-  if (arguments.options.route != RouteKind::kBlock) return;
+  if (!has_laps(arguments.options.route)) return;
   const std::filesystem::path loops = arguments.folder / "loops_true.csv";
   write_loops(simulator, written, loops);
   std::cout << "loops   " << loops.string() << '\n';
@@ -206,12 +207,12 @@ void add_simulate(CLI::App& program) {
       ->check(CLI::IsMember({"none", "full-size", "focal-5", "swapped", "focal-10-percent"}))
       ->capture_default_str();
   verb->add_option("--laps", arguments->laps, "As many frames as this many laps of the block take")
-      ->check(CLI::PositiveNumber)
+      ->check(above_zero())
       ->excludes("--frames");
   verb->add_flag("--odometry", arguments->odometry,
                  "The log has the odometry of the vehicle's wheels, too");
   verb->add_option("--threads", arguments->threads, "0: as many as the machine has")
-      ->check(CLI::NonNegativeNumber)
+      ->check(at_least_zero())
       ->capture_default_str();
   verb->add_flag("--no-progress", arguments->no_progress, "Show none, even on a terminal");
   verb->callback([arguments] { simulate(*arguments); });

@@ -1,5 +1,6 @@
 #include "commands.h"
 #include "terminal/interrupt.h"
+#include "terminal/key_flags.h"
 #include "terminal/progress_bar.h"
 
 #include "oneac/base/atomic_file.h"
@@ -149,7 +150,7 @@ void add_synth(CLI::App& program) {
   verb->add_flag("!--no-readings", arguments->readings,
                  "Leave out the table that judges the claims under every reading of the paper");
   verb->add_option("--threads", arguments->threads, "0: as many as the machine has")
-      ->check(CLI::NonNegativeNumber)
+      ->check(at_least_zero())
       ->capture_default_str();
   verb->add_flag("--no-progress", arguments->no_progress, "Show none, even on a terminal");
   verb->add_flag("--list", arguments->list, "List the figures and the solvers, run nothing");

@@ -93,7 +93,8 @@ void add_scene_flags(CLI::App& verb, SimulationOptions& options) {
                        {"straight", RouteKind::kStraight},
                        {"stop-and-go", RouteKind::kStopAndGo},
                        {"roundabout", RouteKind::kRoundabout},
-                       {"block", RouteKind::kBlock}});
+                       {"block", RouteKind::kBlock},
+                       {"figure8", RouteKind::kFigure8}});
   verb.add_option("--block-m", options.block_m, "Side of the block [m]")->capture_default_str();
   verb.add_option("--lane-shift-m", options.lane_shift_m,
                   "Every second lap of the block drives so far to the left [m]")

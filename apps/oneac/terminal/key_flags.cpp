@@ -1,6 +1,44 @@
 #include "key_flags.h"
 
+#include "oneac/base/printable.h"
+
+#include <charconv>
+#include <cmath>
+#include <cstddef>
+#include <optional>
+
 namespace oneac::app {
+namespace {
+
+constexpr std::size_t kLongest = 40;  // [byte] of a value in a message
+
+std::optional<double> finite_number(const std::string& text) {
+  double value = 0.0;
+  const char* end = text.data() + text.size();
+  const auto result = std::from_chars(text.data(), end, value);
+  const bool whole = result.ec == std::errc() && result.ptr == end && std::isfinite(value);
+  return whole ? std::optional(value) : std::nullopt;
+}
+
+template <class Bound>
+CLI::Validator number_that(const Bound& holds, const std::string& bound, const char* name) {
+  return {[holds, bound](std::string& text) {
+            const auto value = finite_number(text);
+            if (value && holds(*value)) return std::string();
+            return "'" + shortened(printable(text), kLongest) + "' must be a number " + bound;
+          },
+          name};
+}
+
+}  // namespace
+
+CLI::Validator above_zero() {
+  return number_that([](double value) { return value > 0.0; }, "above 0", "ABOVE 0");
+}
+
+CLI::Validator at_least_zero() {
+  return number_that([](double value) { return value >= 0.0; }, "of at least 0", "AT LEAST 0");
+}
 
 void add_key(CLI::App& verb, const std::string& flag, const std::string& key,
              std::vector<std::string>& settings, const std::string& help) {

@@ -63,10 +63,11 @@ std::optional<std::size_t> seen_before(const std::vector<Station>& stations, std
 int frames_for_laps(const SimulationOptions& options, int laps) {
   options.validate();
   require(laps >= 1 && laps <= kMostLaps, "frames_for_laps: laps", laps, "within 1 ... 1000");
-  if (options.route != RouteKind::kBlock) {
-    throw std::invalid_argument("frames_for_laps: SimulationOptions.route must be block");
+  if (!has_laps(options.route)) {
+    throw std::invalid_argument("frames_for_laps: SimulationOptions.route has no laps");
   }
-  const double lap_s = 4.0 * options.block_m / options.speed_mps;
+  const double streets = options.route == RouteKind::kBlock ? 4.0 : 8.0;
+  const double lap_s = streets * options.block_m / options.speed_mps;
   const simulation::Route route(options, (laps + 1) * lap_s);
   return 1 + static_cast<int>(std::floor(route.lap_start_s(laps) * options.fps));
 }

@@ -27,6 +27,12 @@ constexpr double kLongestGo = 22.0;                       // [m]
 constexpr double kShortestWait = 1.0;                     // [s] of a stop in a queue
 constexpr double kLongestWait = 3.5;                      // [s]
 
+constexpr std::size_t kLapsOfTheTown = 2;  // what is built must not depend on how long one drives
+
+int in_steps(double length) {
+  return static_cast<int>(std::lround(length / kStep));
+}
+
 Eigen::Vector2d direction(double angle) {
   return {std::cos(angle), std::sin(angle)};
 }
@@ -122,6 +128,8 @@ void Route::lay(const SimulationOptions& options, double needed_m) {
       return lay_roundabouts(options, needed_m);
     case RouteKind::kBlock:
       return lay_block(options, needed_m);
+    case RouteKind::kFigure8:
+      return lay_figure8(options, needed_m);
     default:
       return lay_straight(options, needed_m);
   }
@@ -194,9 +202,33 @@ void Route::append_lap(int side_steps, int shift_before, int shift, int shift_af
   if (lap_starts_.size() > 1) legs_.resize(4);  // the streets are those of the first lap
 }
 
+/// Three streets and left bends, straight over the junction where they began, the same to the
+/// right, and straight over it again.
+void Route::append_figure8(int side_steps, int across_steps) {
+  lap_starts_.push_back(nodes_.size());
+  for (int street = 0; street < 3; ++street) {
+    append_straight(side_steps, street);
+    append_bend(street, 1);
+  }
+  append_straight(2 * side_steps + across_steps, 3);
+  for (int street = 3; street > 0; --street) {
+    append_bend(street, -1);
+    append_straight(side_steps + (street == 1 ? across_steps : 0), street - 1);
+  }
+  constexpr std::size_t kStreets = 7;
+  if (lap_starts_.size() > 1) legs_.resize(kStreets);  // those of the first lap
+}
+
+void Route::lay_figure8(const SimulationOptions& options, double needed_m) {
+  const double extent = bend_extent();
+  const int side = in_steps(options.block_m - 2.0 * extent), across = in_steps(2.0 * extent);
+  while (lap_starts_.size() < kLapsOfTheTown ||
+         static_cast<double>(nodes_.size()) * kStep < needed_m) {
+    append_figure8(side, across);
+  }
+}
+
 void Route::lay_block(const SimulationOptions& options, double needed_m) {
-  constexpr std::size_t kLapsOfTheTown = 2;  // what is built must not depend on how long one drives
-  const auto in_steps = [](double length) { return static_cast<int>(std::lround(length / kStep)); };
   const int side = in_steps(options.block_m - 2.0 * bend_extent());
   const int shift = in_steps(options.lane_shift_m);
   while (lap_starts_.size() < kLapsOfTheTown ||

@@ -49,12 +49,11 @@ class Route {
   [[nodiscard]] const std::vector<Leg>& legs() const { return legs_; }
   [[nodiscard]] double cruise_mps() const { return cruise_mps_; }
   [[nodiscard]] std::vector<Stop> stops() const;
-  /// When a lap of the block begins [s]; lap 0 at 0. @pre the route is long enough for it
+  /// When a lap begins [s]; lap 0 at 0. @pre the route is long enough for it
   [[nodiscard]] double lap_start_s(int lap) const;
-  /// The lap of the block at a time, from 0; 0 on every other route.
+  /// The lap at a time, from 0; 0 on a route without.
   [[nodiscard]] int lap_at(double time_s) const;
-  /// Points of the path, about a metre apart; of the block's first two laps, as the others repeat
-  /// them.
+  /// Points of the path, about a metre apart; of the first two laps, as the others repeat them.
   [[nodiscard]] std::vector<Eigen::Vector2d> path() const;
 
  private:
@@ -78,7 +77,9 @@ class Route {
   void lay_straight(const SimulationOptions& options, double needed_m);
   void lay_roundabouts(const SimulationOptions& options, double needed_m);
   void lay_block(const SimulationOptions& options, double needed_m);
+  void lay_figure8(const SimulationOptions& options, double needed_m);
   void append_lap(int side_steps, int shift_before, int shift, int shift_after);
+  void append_figure8(int side_steps, int across_steps);
   [[nodiscard]] double bend_extent();
   void set_speeds(const SimulationOptions& options);
   void set_times();
@@ -92,7 +93,7 @@ class Route {
   std::vector<Leg> legs_;
   std::vector<Halt> halts_;
   std::vector<Node> nodes_;
-  std::vector<std::size_t> lap_starts_;  ///< of the block: its nodes
+  std::vector<std::size_t> lap_starts_;  ///< nodes
   Eigen::Vector2d end_ = Eigen::Vector2d::Zero();
   double end_heading_ = 0.0;
   double cruise_mps_ = 0.0;

@@ -28,14 +28,14 @@ void require_straight_for(Traffic traffic, RouteKind route) {
 
 /// What tells one lap from the next needs laps; traffic would meet each of them.
 void require_block_for_laps(const SimulationOptions& options) {
-  if (options.route == RouteKind::kBlock) {
-    if (options.traffic == Traffic::kNone) return;
+  if (has_laps(options.route) && options.traffic != Traffic::kNone) {
     throw std::invalid_argument("SimulationOptions.traffic must be none on a block");
   }
-  if (options.relight) {
-    throw std::invalid_argument("SimulationOptions.relight changes laps: route must be block");
+  if (options.relight && !has_laps(options.route)) {
+    throw std::invalid_argument(
+        "SimulationOptions.relight changes laps: route must be block or figure8");
   }
-  if (options.lane_shift_m != 0.0) {
+  if (options.lane_shift_m != 0.0 && options.route != RouteKind::kBlock) {
     throw std::invalid_argument("SimulationOptions.lane_shift_m shifts laps: route must be block");
   }
 }

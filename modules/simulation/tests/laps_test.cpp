@@ -64,6 +64,47 @@ TEST(Laps, SurroundABlockOfTheLengthAskedFor) {
   EXPECT_EQ(route.legs().size(), 4U);
 }
 
+SimulationOptions figure8() {
+  SimulationOptions options = small_block();
+  options.route = RouteKind::kFigure8;
+  return options;
+}
+
+TEST(Laps, OfAFigure8ReturnToWhereTheyBegan) {
+  const Route route(figure8(), 200.0);
+  for (int lap = 1; lap <= 2; ++lap) {
+    const auto state = route.at(route.lap_start_s(lap));
+    EXPECT_LT(state.position.norm(), 0.1 * lap) << lap;  // a street is of whole steps of 5 cm
+    EXPECT_LT(std::abs(std::remainder(state.heading, 2.0 * kPi)), 1e-9) << lap;
+  }
+  EXPECT_EQ(route.legs().size(), 7U);
+}
+
+TEST(Laps, OfAFigure8GoRoundTwoBlocksAndCrossThemselvesOnce) {
+  const Route route(figure8(), 200.0);
+  Eigen::Vector2d low(0.0, 0.0), high(0.0, 0.0);
+  double left = 0.0, right = 0.0;
+  std::vector<double> headings;  // on the junction, where the bends would have their corner
+  const double end_s = route.lap_start_s(1);
+  for (double t = 0.0; t < end_s; t += 0.05) {
+    const auto state = route.at(t);
+    low = low.cwiseMin(state.position);
+    high = high.cwiseMax(state.position);
+    (state.curvature > 0.0 ? left : right) += state.curvature * state.speed * 0.05;
+    const bool is_straight = std::abs(state.curvature) < 1e-9;
+    const bool on_it = (state.position - Eigen::Vector2d(-11.0, 0.0)).norm() < 3.0;
+    if (!is_straight || !on_it) continue;
+    const double heading = std::remainder(state.heading, 2.0 * kPi);
+    if (headings.empty() || std::abs(heading - headings.back()) > 0.1) headings.push_back(heading);
+  }
+  EXPECT_NEAR(left, 1.5 * kPi, 0.1);
+  EXPECT_NEAR(right, -1.5 * kPi, 0.1);
+  EXPECT_NEAR(high.x() - low.x(), 120.0, 0.3);
+  EXPECT_NEAR(high.y() - low.y(), 120.0, 0.3);
+  ASSERT_EQ(headings.size(), 2U);
+  EXPECT_NEAR(std::abs(headings[0] - headings[1]), 0.5 * kPi, 1e-6);
+}
+
 TEST(Laps, AreCountedInTime) {
   const Route route(small_block(), 100.0);
   EXPECT_EQ(route.lap_at(0.0), 0);
@@ -129,6 +170,16 @@ TEST(TrueLoops, FollowTheWholeSecondLapAndNoneOfTheFirst) {
     EXPECT_TRUE((T_w_2 * loop.T_2_1).isApprox(T_w_1, 1e-9));
     EXPECT_LT(loop.T_2_1.translation().norm(), 3.0);
     EXPECT_LT(loop.index1, loop.index2);
+  }
+}
+
+TEST(TrueLoops, OfAFigure8AreThoseOfItsSecondLap) {
+  const StreetSimulator simulator(laps_of(figure8(), 2));
+  const std::vector<TrueLoop> loops = true_loops(simulator);
+  EXPECT_GT(loops.size(), simulator.size() / 2 - 10);
+  for (const TrueLoop& loop : loops) {
+    EXPECT_LT(loop.T_2_1.translation().norm(), 3.0);
+    EXPECT_GT(loop.index2, simulator.size() / 2 - 3) << "at the junction it crosses itself";
   }
 }
 

@@ -11,7 +11,7 @@ namespace oneac {
 
 /// How many frames it takes to drive so many laps of the block; what the options say of frames
 /// does not matter.
-/// @throws std::invalid_argument naming field, value and bound; route must be RouteKind::kBlock
+/// @throws std::invalid_argument naming field, value and bound; route must have laps
 [[nodiscard]] int frames_for_laps(const SimulationOptions& options, int laps);
 
 /// Two frames of one place, the truth of a loop.

@@ -11,7 +11,12 @@ enum class RouteKind {
   kStopAndGo,   ///< the same, with a stop of 1 to 3.5 s every 10 to 22 m
   kRoundabout,  ///< streets that meet in roundabouts, taken with 120 to 210 degrees of circle
   kBlock,       ///< round a square block to the left, lap after lap, without a stop
+  kFigure8,     ///< round one block to the left and the one across the junction to the right
 };
+/// Whether the route comes back to where it began, again and again.
+[[nodiscard]] constexpr bool has_laps(RouteKind route) {
+  return route == RouteKind::kBlock || route == RouteKind::kFigure8;
+}
 /// What stands around the road.
 enum class Scenery {
   kTown,  ///< facades, parked vehicles and posts, a plain sky
