@@ -1,4 +1,5 @@
 #include "commands.h"
+#include "terminal/help_text.h"
 #include "terminal/quiet_libraries.h"
 #include "terminal/usage.h"
 
@@ -9,11 +10,13 @@
 
 #include <exception>
 #include <iostream>
+#include <memory>
 #include <stdexcept>
 
 int main(int argc, char** argv) {
   oneac::app::quiet_libraries();
   CLI::App program{"Where is the car going? Egomotion from one camera and a rawlog."};
+  program.formatter(std::make_shared<oneac::app::HelpText>());  // of the verbs, too
   program.set_version_flag("--version", oneac::version());
   program.require_subcommand(1);
   oneac::app::add_info(program);
