@@ -89,6 +89,9 @@ TEST_F(GeoreferencedRun, ListsItsFilesWithFrameUnitAndRows) {
   EXPECT_EQ(files.size(), there);
   EXPECT_EQ(files["trajectory_camera.kitti"]["rows"], 150);
   EXPECT_EQ(files["relative_poses.csv"]["rows"], 149);
+  EXPECT_EQ(files["trajectory.gpx"]["rows"], 150);
+  EXPECT_EQ(files["trajectory.kml"]["rows"], 150);
+  EXPECT_GT(files["points.ply"]["rows"], 50);
   EXPECT_EQ(files["trajectory_vehicle.tum"]["unit"], "m");
   EXPECT_EQ(files["trajectory.gpx"]["frame"], "WGS84");
   EXPECT_EQ(files.count("trajectory_enu.tum"), 0U);

@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <array>
+#include <charconv>
 #include <cstddef>
 #include <fstream>
 #include <iterator>
@@ -20,7 +21,7 @@ namespace {
 
 /// A name that a run may write, and what files.json says of it.
 struct ResultFile {
-  enum class Rows { kNone, kLines, kLinesBelowHeader };
+  enum class Rows { kNone, kLines, kLinesBelowHeader, kVertices, kTrackPoints, kCoordinates };
 
   const char* name;
   const char* content;  ///< in a few words
@@ -58,7 +59,7 @@ constexpr std::array kFiles{
     ResultFile{"keyframes.tum", "camera, per keyframe", kFirstCamera, true, Rows::kLines},
     ResultFile{"graph.g2o", "keyframes and constraints", kFirstCamera, true, Rows::kLines},
     ResultFile{"map.simplemap", "MRPT's map of the keyframes", kFirstVehicle, true, Rows::kNone},
-    ResultFile{"points.ply", "landmarks", kFirstCamera, true, Rows::kNone},
+    ResultFile{"points.ply", "landmarks", kFirstCamera, true, Rows::kVertices},
     ResultFile{"loops.csv", "X2 = R X1 + t, per loop", kSecondCamera, true,
                Rows::kLinesBelowHeader},
     ResultFile{"trajectory_optimised_camera.kitti", "camera, per frame, loops closed", kFirstCamera,
@@ -75,8 +76,8 @@ constexpr std::array kFiles{
     ResultFile{"keyframes_optimised.tum", "camera, per keyframe, loops closed", kFirstCamera, true,
                Rows::kLines},
     ResultFile{"camera.ini", "camera of the raw images as used", "", false, Rows::kNone},
-    ResultFile{"trajectory.gpx", "vehicle, per frame", kEarth, false, Rows::kNone},
-    ResultFile{"trajectory.kml", "vehicle, per frame", kEarth, false, Rows::kNone},
+    ResultFile{"trajectory.gpx", "vehicle, per frame", kEarth, false, Rows::kTrackPoints},
+    ResultFile{"trajectory.kml", "vehicle, per frame", kEarth, false, Rows::kCoordinates},
     ResultFile{"trajectory_enu.tum", "vehicle, per frame", "east, north, up of the first GPS fix",
                true, Rows::kLines},
     ResultFile{"mask.png", "what belongs to the car", "", false, Rows::kNone},
@@ -127,6 +128,51 @@ std::size_t lines_of(const std::filesystem::path& file) {
       std::count(std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>(), '\n'));
 }
 
+/// What the header of a PLY says.
+std::size_t vertices_of(const std::filesystem::path& file) {
+  constexpr std::string_view kElement = "element vertex ";
+  constexpr int kMostLines = 50;
+  std::ifstream in(file, std::ios::binary);
+  std::string line;
+  for (int i = 0; i < kMostLines && std::getline(in, line); ++i) {
+    if (line.rfind(kElement, 0) != 0) continue;
+    std::size_t count = 0;
+    std::from_chars(line.data() + kElement.size(), line.data() + line.size(), count);
+    return count;
+  }
+  return 0;
+}
+
+template <class Predicate>
+std::size_t lines_that(const std::filesystem::path& file, Predicate&& holds) {
+  std::ifstream in(file);
+  std::size_t count = 0;
+  for (std::string line; std::getline(in, line);) count += holds(line) ? 1U : 0U;
+  return count;
+}
+
+std::size_t rows_of(const ResultFile& file, const std::filesystem::path& path) {
+  switch (file.rows) {
+    case Rows::kLines:
+      return lines_of(path);
+    case Rows::kLinesBelowHeader:
+      return std::max<std::size_t>(lines_of(path), 1) - 1;
+    case Rows::kVertices:
+      return vertices_of(path);
+    case Rows::kTrackPoints:
+      return lines_that(
+          path, [](const std::string& line) { return line.find("<trkpt ") != std::string::npos; });
+    case Rows::kCoordinates:  // longitude,latitude,altitude
+      return lines_that(path, [](const std::string& line) {
+        return line.find('<') == std::string::npos &&
+               std::count(line.begin(), line.end(), ',') == 2;
+      });
+    case Rows::kNone:
+      break;
+  }
+  return 0;
+}
+
 /// Whether a run has written it, to this folder.
 bool is_there(const ResultFile& result, const std::filesystem::path& folder) {
   std::error_code ignored;
@@ -145,11 +191,7 @@ nlohmann::ordered_json entry_of(const ResultFile& file, const std::filesystem::p
   nlohmann::ordered_json entry = {{"name", file.name}, {"content", file.content}};
   if (*file.frame != '\0') entry["frame"] = file.frame;
   if (const std::string unit = unit_of(file, metric); !unit.empty()) entry["unit"] = unit;
-  if (file.rows != Rows::kNone) {
-    const std::size_t header = file.rows == Rows::kLinesBelowHeader ? 1 : 0;
-    const std::size_t lines = lines_of(folder / file.name);
-    entry["rows"] = lines - std::min(lines, header);
-  }
+  if (file.rows != Rows::kNone) entry["rows"] = rows_of(file, folder / file.name);
   return entry;
 }
 
