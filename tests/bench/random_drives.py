@@ -1,7 +1,7 @@
 #!/usr/bin/python3
 """Simulated drives drawn at random: does what is called metric lie within its sigma?
 
-Usage: random_drives.py ONEAC FOLDER [--first N] [--count N]
+Usage: random_drives.py ONEAC FOLDER [--first N] [--count N] [--source stereo|gps|wheels]
 
 Every number is a drive: its camera, mount, road, light, traffic and speed follow from it. Prints
 per drive what nasty_drives.py prints, the flags of `oneac simulate`, and *** where a metric pair
@@ -67,18 +67,31 @@ def scene(r):
     return flags
 
 
-def drive_flags(number):
+def sensors(r, source):
+    """What measures the metres besides the road, as good and as bad as such things are."""
+    if source == 'stereo':
+        return ['--stereo', '--baseline', round(r.uniform(0.08, 0.55), 2)]
+    if source == 'gps':
+        return ['--gps-noise', r.choice([0.02, 0.1, 0.3, 1, 2])]
+    if source == 'wheels':
+        return ['--odometry', '--wheel-error', round(r.uniform(-4, 4), 1)]
+    return []
+
+
+def drive_flags(number, source=None):
     """Of `oneac simulate`."""
     r = random.Random(number)
     flags = ['--seed', number, '--frames', r.choice([80, 120, 160])] + camera(r) + scene(r)
+    flags += sensors(r, source)
     return [str(flag) for flag in flags]
 
 
-def run_flags(flags):
+def run_flags(flags, source=None):
     """A log that is silent about its mount says no height, either; somebody measured it."""
-    if '--silent-mount' not in flags:
-        return []
-    return ['--set', 'front_end.camera_height=' + flags[flags.index('--camera-height') + 1]]
+    keys = [f'front_end.scale.source={source}'] if source else []
+    if '--silent-mount' in flags:
+        keys.append('front_end.camera_height=' + flags[flags.index('--camera-height') + 1])
+    return [part for key in keys for part in ('--set', key)]
 
 
 def mark(count):
@@ -94,15 +107,18 @@ def main():
     parser.add_argument('folder', type=pathlib.Path)
     parser.add_argument('--first', type=int, default=0)
     parser.add_argument('--count', type=int, default=60)
+    parser.add_argument('--source', choices=['stereo', 'gps', 'wheels'],
+                        help='of the metres; without it the camera\'s height')
     asked = parser.parse_args()
     total = dict(metric=0, within_2=0, beyond_5=0, pairs=0, wrong=0)
     for number in range(asked.first, asked.first + asked.count):
-        flags = drive_flags(number)
-        drive, out = asked.folder / str(number), asked.folder / f'{number}-run'
+        flags = drive_flags(number, asked.source)
+        name = f"{number}{'-' + asked.source if asked.source else ''}"
+        drive, out = asked.folder / name, asked.folder / f'{name}-run'
         if not (drive / 'poses.txt').exists():
             call(asked.oneac, 'simulate', '-o', drive, '--no-progress', *flags)
         count, text = run(asked.oneac, drive / 'simulated.rawlog', drive / 'poses.txt', out,
-                          *run_flags(flags))
+                          *run_flags(flags, asked.source))
         print(f"{number:4} {mark(count):3} {' '.join(flags)} | {text}", flush=True)
         for key in total if count else ():
             total[key] += count[key]
