@@ -106,7 +106,7 @@ Json to_json(const MethodResult& r) {
 
 /// The word of a PoseStatus, or kInvalidAnswer.
 std::string status_from(const Json& json) {
-  const std::string word = json.get<std::string>();
+  std::string word = json.get<std::string>();
   for (const PoseStatus status : {PoseStatus::kOk, PoseStatus::kOnePlane, PoseStatus::kPureRotation,
                                   PoseStatus::kNoMotion, PoseStatus::kTooFew}) {
     if (word == to_string(status)) return word;
@@ -171,7 +171,7 @@ void take_results(const Json& json, const CompareSettings& settings, PairRecord&
 
 /// A line of the tables that no field can break.
 std::string label_from(const Json& json) {
-  const std::string label = json.get<std::string>();
+  std::string label = json.get<std::string>();
   if (label.empty() || printable(label) != label || label.find(',') != std::string::npos) {
     fail("the name of a method", json, "a word without comma");
   }

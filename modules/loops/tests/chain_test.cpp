@@ -4,10 +4,22 @@
 
 #include <gtest/gtest.h>
 
+#include <cstddef>
 #include <random>
+#include <vector>
 
 namespace oneac::internal {
 namespace {
+
+/// @param step_m  from pose to pose, ahead
+std::vector<Eigen::Isometry3d> straight_drive(std::size_t poses, double step_m) {
+  std::vector<Eigen::Isometry3d> truth;
+  truth.reserve(poses);
+  for (std::size_t i = 0; i < poses; ++i) {
+    truth.push_back(test::pose_at(0.0, step_m * static_cast<double>(i), 0.0));
+  }
+  return truth;
+}
 
 TEST(Chain, GoesBothWays) {
   const auto keyframes = test::drifted(test::square_drive(40.0, 1), 0.05);
@@ -47,8 +59,7 @@ TEST(Chain, CovarianceIsThatOfTheStepsItAddsUp) {
 }
 
 TEST(Chain, LengthsOfAStretchAreWrongByOneFactor) {
-  std::vector<Eigen::Isometry3d> truth;
-  for (int i = 0; i < 30; ++i) truth.push_back(test::pose_at(0.0, 2.0 * i, 0.0));
+  const auto truth = straight_drive(30, 2.0);
   const UncertainPose way = test::chain_of(test::drifted(truth, 0.0)).between(0, 29);
   EXPECT_GT(std::sqrt(way.covariance(2, 2)), 0.01 * 58.0);  // ahead
   EXPECT_LT(std::sqrt(way.covariance(1, 1)), 0.01 * 58.0);
@@ -57,9 +68,7 @@ TEST(Chain, LengthsOfAStretchAreWrongByOneFactor) {
 /// 10 m/s, ten keyframes a second; nothing is known of the 2.1 s after the 40th, in which a car
 /// drives 21 m, or 27 m as fast as it can.
 std::vector<LoopKeyframe> with_a_gap() {
-  std::vector<Eigen::Isometry3d> truth;
-  for (int i = 0; i < 80; ++i) truth.push_back(test::pose_at(0.0, i, 0.0));
-  auto keyframes = test::drifted(truth, 0.0);
+  auto keyframes = test::drifted(straight_drive(80, 1.0), 0.0);
   for (std::size_t i = 0; i < keyframes.size(); ++i) {
     keyframes[i].time_s = 0.1 * static_cast<double>(i) + (i < 40 ? 0.0 : 2.0);
   }
