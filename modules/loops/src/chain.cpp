@@ -18,7 +18,10 @@ constexpr double kLeap_m = 1e7;  // [m] from a part to the next
 // What no car on a road does: a fast one's 0 to 100 km/h in 5.5 s, and the unlimited motorway.
 constexpr double kMostAcceleration = 5.0;  // [m/s²]
 constexpr double kFastest = 70.0;          // [m/s]
-constexpr double kSlack_m = 5.0;           // [m] of drift on either side, and of the loop
+constexpr double kSlack_m = 5.0;           // [m]
+constexpr double kDriftSigmas =
+    4.0;  // of the ways on either side: two, and twice as unsure as told
+constexpr std::size_t kSpeedSteps = 5;  // to the gap: the last may be false already
 
 Matrix6 carried(const Matrix6& covariance, const Eigen::Isometry3d& T) {
   const Matrix6 A = adjoint(T);
@@ -111,6 +114,7 @@ void Chain::add(const LoopKeyframe& keyframe) {
   }
   parts_.push_back(stretches_.size() - 1);
   times_.push_back(keyframe.time_s);
+  metric_.push_back(keyframe.metric);
   poses_.push_back(here);
   sums_.push_back(sum);
   driven_.push_back(driven);
@@ -119,10 +123,15 @@ void Chain::add(const LoopKeyframe& keyframe) {
   if (driven - begin >= kScaleMemory_m) knots_.push_back(poses_.size() - 1);
 }
 
-double Chain::speed(std::size_t keyframe, std::size_t neighbour) const {
-  const double seconds = std::abs(times_[keyframe] - times_[neighbour]);
-  const double way = (poses_[keyframe].translation() - poses_[neighbour].translation()).norm();
-  return seconds > 0.0 ? std::min(way / seconds, kFastest) : kFastest;
+double Chain::fastest_between(std::size_t first, std::size_t last) const {
+  double fastest = 0.0;
+  for (std::size_t i = first + 1; i <= last; ++i) {
+    const double seconds = times_[i] - times_[i - 1];
+    if (!metric_[i] || !(seconds > 0.0)) continue;
+    const double way = (poses_[i].translation() - poses_[i - 1].translation()).norm();
+    fastest = std::max(fastest, way / seconds);
+  }
+  return fastest > 0.0 ? std::min(fastest, kFastest) : kFastest;
 }
 
 bool Chain::can_be_driven(std::size_t a, std::size_t b, const Eigen::Isometry3d& T_a_b) const {
@@ -131,14 +140,16 @@ bool Chain::can_be_driven(std::size_t a, std::size_t b, const Eigen::Isometry3d&
   const Part& to = stretches_[parts_[b]];
   const double seconds = times_[to.first] - times_[from.last];
   if (known(a, b) || from.log != to.log || !(seconds > 0.0)) return true;
-  const Eigen::Isometry3d T_end_begin =
-      poses_[from.last].inverse() * poses_[a] * T_a_b * poses_[b].inverse() * poses_[to.first];
+  const UncertainPose leap =
+      between(from.last, a) * UncertainPose{T_a_b, Matrix6::Zero()} * between(b, to.first);
   // Faster and faster for half of the time, then slower and slower.
-  const double before = from.last > from.first ? speed(from.last, from.last - 1) : kFastest;
-  const double after = to.last > to.first ? speed(to.first, to.first + 1) : kFastest;
+  const double before =
+      fastest_between(from.last - std::min(kSpeedSteps, from.last - from.first), from.last);
+  const double after = fastest_between(to.first, std::min(to.first + kSpeedSteps, to.last));
   const double usual = 0.5 * (before + after);
   const double most = std::min(usual + 0.25 * kMostAcceleration * seconds, kFastest) * seconds;
-  return T_end_begin.translation().norm() < most + kSlack_m;
+  const double drift = kDriftSigmas * std::sqrt(leap.covariance.topLeftCorner<3, 3>().trace());
+  return leap.T.translation().norm() < most + kSlack_m + drift;
 }
 
 Eigen::Matrix3d Chain::scale_covariance(std::size_t a, std::size_t b) const {

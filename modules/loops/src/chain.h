@@ -59,11 +59,13 @@ class Chain {
     std::size_t first, last;  ///< keyframes
     std::size_t log;
   };
-  /// [m/s] between a keyframe and a neighbour of its part; the fastest where it has none.
-  [[nodiscard]] double speed(std::size_t keyframe, std::size_t neighbour) const;
+  /// [m/s] of the fastest measured step between two keyframes of a part; that of the fastest car
+  /// where none was.
+  [[nodiscard]] double fastest_between(std::size_t first, std::size_t last) const;
 
   std::vector<Part> stretches_;
   std::vector<double> times_;
+  std::vector<bool> metric_;
   std::vector<Eigen::Isometry3d> poses_;
   std::vector<std::size_t> parts_;
   std::vector<double> driven_;

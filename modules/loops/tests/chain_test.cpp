@@ -88,6 +88,13 @@ TEST(Chain, NoCarLeapsOverAGap) {
   EXPECT_FALSE(can(-30.0)) << "a street that looks like the one before";
 }
 
+TEST(Chain, TheDriftOnEitherSideOfAGapIsAllowedFor) {
+  auto keyframes = with_a_gap();
+  for (std::size_t i = 36; i < 40; ++i) keyframes[i].covariance.diagonal().head<3>().setConstant(9);
+  const Eigen::Isometry3d T = test::pose_at(0.0, 60.0, 0.0);
+  EXPECT_TRUE(test::chain_of(keyframes).can_be_driven(35, 45, T));
+}
+
 TEST(Chain, ALongGapOrAnotherLogBoundsNothing) {
   auto keyframes = with_a_gap();
   const Eigen::Isometry3d far = test::pose_at(0.0, -400.0, 0.0);
