@@ -27,6 +27,7 @@ enum class Form {
   kBlock         ///< 4: a row of a matrix of four lines
 };
 
+constexpr double kMicrosecond = 1e-6;
 constexpr double kTimeBound = 1e19;  // nanoseconds since 1970 have 1.8e18
 
 std::optional<double> parse_time(std::string_view field) {
@@ -46,9 +47,12 @@ std::vector<std::string_view> fields_of(std::string_view line) {
   return has_commas(line) ? split_at_commas(line) : split_at_blanks(line);
 }
 
-/// Of names such as "q_RS_w []" and "q_RS_x []", or "qw" and "qx": whether w is the last.
-bool names_qw_last(std::string_view text) {
-  const std::string_view line = text.substr(0, text.find('\n'));
+/// The form that names such as "q_RS_w []" and "q_RS_x []", or "qw" and "qx", in the line before
+/// the first of numbers tell; none without.
+std::optional<Form> named_form(std::string_view text, std::string_view first) {
+  std::string_view head = text.substr(0, text.find(first));
+  while (!head.empty() && (head.back() == '\n' || head.back() == '\r')) head.remove_suffix(1);
+  const std::string_view line = head.substr(head.rfind('\n') + 1);
   std::size_t w = 0, x = 0, place = 0;
   for (const std::string_view name : split_at_commas(line)) {
     ++place;
@@ -57,25 +61,15 @@ bool names_qw_last(std::string_view text) {
     if (name.find('w', q) != std::string_view::npos) w = place;
     if (name.find('x', q) != std::string_view::npos) x = place;
   }
-  return w > x && x > 0;
-}
-
-bool names_columns(std::string_view text) {
-  return text.substr(0, text.find('\n')).find('q') != std::string_view::npos;
-}
-
-/// EuRoC counts nanoseconds; who writes seconds with commas between has TUM's columns.
-bool is_whole(std::string_view time) {
-  return time.find_first_not_of("+-0123456789") == std::string_view::npos;
+  if (w == 0 || x == 0) return std::nullopt;
+  return w > x ? Form::kTumCommas : Form::kEuroc;
 }
 
 std::optional<Form> form_of(std::string_view text, std::string_view first) {
   const std::size_t columns = fields_of(first).size();
   if (has_commas(first)) {
     if (columns < 8) return std::nullopt;
-    const bool qw_last =
-        names_columns(text) ? names_qw_last(text) : !is_whole(fields_of(first).front());
-    return qw_last ? Form::kTumCommas : Form::kEuroc;
+    return named_form(text, first).value_or(Form::kEuroc);
   }
   switch (columns) {
     case 4:
@@ -254,7 +248,7 @@ TrajectoryFile read_trajectory_file(const std::filesystem::path& path) {
   auto lines = data_lines(text);
   if (lines.empty()) throw InputError(file, "has no poses", "write or copy it again");
   drop_names(lines);
-  const auto form = form_of(text, lines.front().text);
+  auto form = form_of(text, lines.front().text);
   if (!form) {
     throw InputError(
         where_in(file, lines.front().number),
@@ -264,14 +258,16 @@ TrajectoryFile read_trajectory_file(const std::filesystem::path& path) {
   }
   require_named_form(path, *form, lines.front());
   TrajectoryFile result;
-  if (has_commas(lines.front().text) && !names_columns(text)) {
-    result.notes.push_back(file + " names no columns and is read as t, x, y, z, " +
-                           (*form == Form::kEuroc ? "qw, qx, qy, qz" : "qx, qy, qz, qw"));
-  }
   std::vector<Row> rows = rows_of(lines, file, *form);
   if (is_timed(*form)) {
     const TimeUnit unit = unit_of(rows);
     if (unit.seconds < 1.0) result.notes.push_back(file + " is stamped in " + unit.name);
+    if (has_commas(lines.front().text) && !named_form(text, lines.front().text)) {
+      // EuRoC counts nanoseconds; who writes others with commas between has TUM's columns.
+      form = unit.seconds < kMicrosecond ? Form::kEuroc : Form::kTumCommas;
+      result.notes.push_back(file + " names no columns and is read as t, x, y, z, " +
+                             (*form == Form::kEuroc ? "qw, qx, qy, qz" : "qx, qy, qz, qw"));
+    }
     put_in_order(rows, file, result.notes);
     for (const Row& row : rows) result.trajectory.times.push_back(row.time * unit.seconds);
   }

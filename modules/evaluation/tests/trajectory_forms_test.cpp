@@ -49,8 +49,15 @@ TEST_F(TrajectoryForms, CommasWithoutNamesAreToldByTheUnitOfTheTime) {
   EXPECT_NEAR(Eigen::Quaterniond(tum.trajectory.poses[0].linear()).w(), 0.6, 1e-9);
   ASSERT_EQ(tum.notes.size(), 1U);
   EXPECT_NE(tum.notes[0].find("names no columns and is read as t, x, y, z, qx"), std::string::npos);
-  const TrajectoryFile euroc = read("1403636579763555584,0,0,0,0.6,0.8,0,0\n");
-  EXPECT_NEAR(Eigen::Quaterniond(euroc.trajectory.poses[0].linear()).w(), 0.6, 1e-9);
+  for (const char* text :
+       {"1403636579763555584,0,0,0,0.6,0.8,0,0\n", "1.403636579763555584e+18,0,0,0,0.6,0.8,0,0\n",
+        "0,0,0,0,0.6,0.8,0,0\n50000000,0,0,0,0.6,0.8,0,0\n"}) {
+    const TrajectoryFile euroc = read(text);
+    EXPECT_NEAR(Eigen::Quaterniond(euroc.trajectory.poses[0].linear()).w(), 0.6, 1e-9) << text;
+  }
+  // The first of whole seconds, and a remark that names nothing.
+  const TrajectoryFile whole = read("# sequence 3\n0,0,0,0,0.8,0,0,0.6\n1,0,0,0,0.8,0,0,0.6\n");
+  EXPECT_NEAR(Eigen::Quaterniond(whole.trajectory.poses[0].linear()).w(), 0.6, 1e-9);
 }
 
 TEST_F(TrajectoryForms, SquareMatricesInOneLineOrInFour) {
