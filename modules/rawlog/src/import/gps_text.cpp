@@ -16,6 +16,8 @@
 #include <optional>
 #include <sstream>
 #include <string>
+#include <utility>
+#include <vector>
 
 namespace oneac {
 namespace {
@@ -79,7 +81,7 @@ class Fixes {
     if (passed_over_ > 0) {
       report_.notes.push_back(std::to_string(passed_over_) + " fixes of " +
                               file_.filename().string() +
-                              " are void, damaged, at 0, 0 or of a moment that is told twice");
+                              " are void, damaged, at 0, 0 or not later than the one before");
     }
     return std::move(fixes_);
   }
@@ -251,12 +253,15 @@ std::size_t put_in_order(std::vector<GpsRecord>& fixes) {
     return fix.position.latitude_deg == 0.0 && fix.position.longitude_deg == 0.0;
   };
   fixes.erase(std::remove_if(fixes.begin(), fixes.end(), nowhere), fixes.end());
-  std::stable_sort(fixes.begin(), fixes.end(),
-                   [](const GpsRecord& a, const GpsRecord& b) { return a.time_s < b.time_s; });
-  const auto at_once = [](const GpsRecord& a, const GpsRecord& b) {
-    return !(a.time_s < b.time_s);
-  };
-  fixes.erase(std::unique(fixes.begin(), fixes.end(), at_once), fixes.end());
+  // The newest first, as some write; several tracks of one time are not mixed.
+  const bool backwards = !fixes.empty() && fixes.back().time_s < fixes.front().time_s;
+  if (backwards) std::reverse(fixes.begin(), fixes.end());
+  std::vector<GpsRecord> later;
+  later.reserve(fixes.size());
+  for (GpsRecord& fix : fixes) {
+    if (later.empty() || fix.time_s > later.back().time_s) later.push_back(std::move(fix));
+  }
+  fixes = std::move(later);
   return before - fixes.size();
 }
 

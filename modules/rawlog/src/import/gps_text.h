@@ -9,9 +9,9 @@
 
 namespace oneac {
 
-// Positions of a receiver out of a file of its own, in time order; fixes that are void, at 0, 0
-// (where receivers are before their first), or a second time at one moment are passed over and
-// counted in the notes.
+// Positions of a receiver out of a file of its own, in time order, also of one that is backwards;
+// fixes that are void, at 0, 0 (where receivers are before their first) or not later than the one
+// before are passed over and counted in the notes.
 // @throws InputError naming file and line, what is wrong with it and the cure
 
 /// NMEA 0183: RMC sentences (date, position, speed, course) with the altitude and quality of the
@@ -29,7 +29,7 @@ namespace oneac {
 [[nodiscard]] std::vector<GpsRecord> read_gpx(const std::filesystem::path& file,
                                               ImportReport& report);
 
-/// Puts fixes in order of time, takes the first of each moment and none at 0, 0.
+/// Turns fixes that go back in time about, takes those later than all before and none at 0, 0.
 /// @return how many were left out
 [[nodiscard]] std::size_t put_in_order(std::vector<GpsRecord>& fixes);
 

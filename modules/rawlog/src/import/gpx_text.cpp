@@ -153,8 +153,9 @@ std::vector<GpsRecord> read_gpx(const fs::path& file, ImportReport& report) {
                      "export the track with its times");
   }
   if (passed_over > 0) {
-    report.notes.push_back(std::to_string(passed_over) + " points of " + file.filename().string() +
-                           " have no time, one that is told twice, or are at 0, 0");
+    report.notes.push_back(
+        std::to_string(passed_over) + " points of " + file.filename().string() +
+        " have no time or one that is not later than the one before, or are at 0, 0");
   }
   return std::move(track.points());
 }

@@ -21,18 +21,20 @@
 namespace oneac {
 namespace {
 
-/// "Z", "+02:00", "-0330" or nothing, at the end of a time: seconds east of Greenwich.
+/// "Z", "+02:00", "-0330", "+02" or nothing, at the end of a time: seconds east of Greenwich.
 std::optional<double> zone_of(std::string_view text) {
   if (text.empty() || text == "Z") return 0.0;
   const bool colon = text.size() == 6 && text[3] == ':';
-  if ((text[0] != '+' && text[0] != '-') || (!colon && text.size() != 5)) return std::nullopt;
+  if ((text[0] != '+' && text[0] != '-') || (!colon && text.size() != 5 && text.size() != 3)) {
+    return std::nullopt;
+  }
   const auto two = [text](std::size_t at) {
     int value = 0;
     const char* begin = text.data() + at;
     const auto result = std::from_chars(begin, begin + 2, value);
     return result.ec == std::errc() && result.ptr == begin + 2 && value >= 0 ? value : 99;
   };
-  const int hours = two(1), minutes = two(colon ? 4 : 3);
+  const int hours = two(1), minutes = text.size() == 3 ? 0 : two(colon ? 4 : 3);
   if (hours > 14 || minutes > 59) return std::nullopt;
   const double seconds = 3600.0 * hours + 60.0 * minutes;
   return text[0] == '-' ? -seconds : seconds;
