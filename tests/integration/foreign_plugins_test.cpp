@@ -71,6 +71,7 @@ TEST_F(ForeignPlugins, ANameThatIsTakenOrNoneIsRefused) {
       {"5pc", "an initialiser called 5pc, and there is one already"},
       {"", "must be a word without comma"},
       {"a,b", "must be a word without comma"},
+      {"5pc+gc_ransac", "must be a word without comma, blank or +"},
       {"throw", "name() of its initialiser threw"}};
   for (const auto& [name, words] : refused) {
     ::setenv("ONEAC_BAD_NAME", name, 1);

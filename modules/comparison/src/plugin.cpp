@@ -88,10 +88,10 @@ void require_new_names(const fs::path& library, const std::vector<std::string>& 
     throw InputError(library.string(), "registers no initialiser of a new name", kSee);
   }
   for (const std::string& name : names) {
-    if (name.empty() || printable(name) != name || name.find(',') != std::string::npos) {
+    if (name.empty() || printable(name) != name || name.find_first_of(", +") != std::string::npos) {
       throw InputError(library.string(),
                        "calls an initialiser '" + shortened(printable(name), kLongestName) +
-                           "', must be a word without comma",
+                           "', must be a word without comma, blank or +",
                        kSee);
     }
   }

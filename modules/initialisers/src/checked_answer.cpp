@@ -103,8 +103,9 @@ std::string told(const std::exception& error) {
 void configure_checked(RelativePoseInitialiser& initialiser,
                        const mrpt::containers::yaml& parameters) {
   constexpr const char* kCure = "check its parameters, or leave the method out";
-  const std::string name = "initialiser '" + initialiser.name() + "'";
+  std::string name = "initialiser";
   try {
+    name += " '" + initialiser.name() + "'";
     initialiser.configure(parameters);
   } catch (const InputError&) {
     throw;
