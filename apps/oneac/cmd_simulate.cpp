@@ -129,7 +129,8 @@ SimulationOptions drive_of(const SimulateArguments& arguments) {
   validate(options);
   if (arguments.laps == 0) return options;
   if (!has_laps(options.route)) {
-    throw InputError("simulate", "--laps counts those of a block", "add --route block or figure8");
+    throw InputError("simulate", "--laps counts those of a block or a figure 8",
+                     "add --route block or figure8");
   }
   options.frames = frames_for_laps(options, arguments.laps);
   validate(options);
@@ -206,7 +207,7 @@ void add_simulate(CLI::App& program) {
                    "10 % too long")
       ->check(CLI::IsMember({"none", "full-size", "focal-5", "swapped", "focal-10-percent"}))
       ->capture_default_str();
-  verb->add_option("--laps", arguments->laps, "As many frames as this many laps of the block take")
+  verb->add_option("--laps", arguments->laps, "As many frames as this many laps take")
       ->check(above_zero())
       ->excludes("--frames");
   verb->add_flag("--odometry", arguments->odometry,

@@ -1,24 +1,14 @@
 #include "key_flags.h"
 
+#include "oneac/base/finite_number.h"
 #include "oneac/base/printable.h"
 
-#include <charconv>
-#include <cmath>
 #include <cstddef>
-#include <optional>
 
 namespace oneac::app {
 namespace {
 
 constexpr std::size_t kLongest = 40;  // [byte] of a value in a message
-
-std::optional<double> finite_number(const std::string& text) {
-  double value = 0.0;
-  const char* end = text.data() + text.size();
-  const auto result = std::from_chars(text.data(), end, value);
-  const bool whole = result.ec == std::errc() && result.ptr == end && std::isfinite(value);
-  return whole ? std::optional(value) : std::nullopt;
-}
 
 template <class Bound>
 CLI::Validator number_that(const Bound& holds, const std::string& bound, const char* name) {

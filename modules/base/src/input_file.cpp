@@ -1,10 +1,9 @@
 #include "oneac/base/input_file.h"
 
 #include "oneac/base/error.h"
+#include "oneac/base/fingerprint.h"
 
-#include <array>
-#include <cstdint>
-#include <cstring>
+#include <cstddef>
 #include <system_error>
 #include <vector>
 
@@ -12,13 +11,6 @@ namespace oneac {
 namespace {
 
 namespace fs = std::filesystem;
-
-/// One round of FNV over a word, with the upper bits brought down.
-std::uint64_t mixed(std::uint64_t hash, std::uint64_t word) {
-  constexpr std::uint64_t kPrime = 0x100000001b3;
-  hash = (hash ^ word) * kPrime;
-  return hash ^ hash >> 29U;
-}
 
 }  // namespace
 
@@ -45,23 +37,13 @@ std::string content_hash(const fs::path& path) {
   if (!fault_of_file(path).empty()) return "";
   std::ifstream in(path, std::ios::binary);
   if (!in) return "";
-  std::uint64_t hash = 0xcbf29ce484222325;
+  Fingerprint content;
   std::vector<char> block(std::size_t{1} << 20U);
   while (in) {
-    std::memset(block.data(), 0, block.size());
     in.read(block.data(), static_cast<std::streamsize>(block.size()));
-    const auto count = static_cast<std::size_t>(in.gcount());
-    for (std::size_t at = 0; at < count; at += sizeof(std::uint64_t)) {
-      std::uint64_t word = 0;
-      std::memcpy(&word, block.data() + at, sizeof word);
-      hash = mixed(hash, word);
-    }
-    hash = mixed(hash, count);
+    content.add(block.data(), static_cast<std::size_t>(in.gcount()));
   }
-  static constexpr std::array<char, 17> kDigits{"0123456789abcdef"};
-  std::string text;
-  for (int shift = 60; shift >= 0; shift -= 4) text += kDigits[hash >> shift & 15U];
-  return text;
+  return content.text();
 }
 
 fs::path file_of_program(const std::string& name) {

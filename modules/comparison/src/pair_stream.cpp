@@ -1,12 +1,10 @@
 #include "oneac/comparison/pair_stream.h"
 
 #include "oneac/base/error.h"
+#include "oneac/base/fingerprint.h"
 #include "oneac/observations/repeat_watch.h"
 
-#include <array>
 #include <cstdint>
-#include <cstring>
-#include <string_view>
 #include <utility>
 
 namespace oneac {
@@ -70,37 +68,6 @@ std::optional<StreamPair> PairStream::next() {
 
 namespace {
 
-/// FNV-1a, 64 bits.
-class Fingerprint {
- public:
-  template <class Number>
-  void add(Number number) {
-    std::array<unsigned char, sizeof number> bytes{};
-    std::memcpy(bytes.data(), &number, sizeof number);
-    add(bytes.data(), bytes.size());
-  }
-  void add(const ImageView& image) {
-    for (int row = 0; row < image.height; ++row) {
-      add(image.data + static_cast<std::ptrdiff_t>(row) * image.stride,
-          static_cast<std::size_t>(image.width));
-    }
-  }
-  [[nodiscard]] std::string text() const {
-    constexpr std::string_view kDigits = "0123456789abcdef";
-    std::string digits;
-    for (unsigned shift = 64; shift > 0;) digits += kDigits[hash_ >> (shift -= 4) & 15U];
-    return digits;
-  }
-
- private:
-  void add(const unsigned char* bytes, std::size_t count) {
-    constexpr std::uint64_t kPrime = 0x100000001b3;
-    for (std::size_t i = 0; i < count; ++i) hash_ = (hash_ ^ bytes[i]) * kPrime;
-  }
-
-  std::uint64_t hash_ = 0xcbf29ce484222325;
-};
-
 /// Notices images that repeat the one before; decodes those that take as many bytes as it.
 class StoredRepeats {
  public:
@@ -116,6 +83,8 @@ class StoredRepeats {
     before_ = ticket;
     return repeated;
   }
+  /// Of the image that was asked about last.
+  [[nodiscard]] std::size_t bytes() const { return bytes_; }
 
  private:
   /// One that cannot be decoded is like no other; whoever needs it says why.
@@ -159,7 +128,7 @@ LogScan scan_log(const SourceOptions& options) {
     }
     scan.images.push_back({ticket->index, ticket->time_s});
     content.add(ticket->time_s);
-    content.add(source.stored_bytes(*ticket));
+    content.add(std::uint64_t{repeats.bytes()});
   }
   source.finish();
   scan.vehicle = source.report().reference;

@@ -19,8 +19,8 @@ constexpr double kLeap_m = 1e7;  // [m] from a part to the next
 constexpr double kMostAcceleration = 5.0;  // [m/s²]
 constexpr double kFastest = 70.0;          // [m/s]
 constexpr double kSlack_m = 5.0;           // [m]
-constexpr double kDriftSigmas =
-    4.0;  // of the ways on either side: two, and twice as unsure as told
+// Of the ways on either side: two, and twice as unsure as told.
+constexpr double kDriftSigmas = 4.0;
 constexpr std::size_t kSpeedSteps = 5;  // to the gap: the last may be false already
 
 Matrix6 carried(const Matrix6& covariance, const Eigen::Isometry3d& T) {

@@ -3,6 +3,7 @@
 #include "import/stamps.h"
 
 #include "oneac/base/error.h"
+#include "oneac/base/finite_number.h"
 #include "oneac/base/input_file.h"
 
 #include <algorithm>
@@ -28,14 +29,6 @@ constexpr double kKnot = 1852.0 / 3600.0;  // [m/s]
 constexpr double kKmh = 1.0 / 3.6;         // [m/s]
 
 using Words = std::vector<std::string>;
-
-std::optional<double> number(const std::string& word) {
-  double value = 0.0;
-  const char* end = word.data() + word.size();
-  const auto result = std::from_chars(word.data(), end, value);
-  const bool whole = result.ec == std::errc() && result.ptr == end && std::isfinite(value);
-  return whole ? std::optional(value) : std::nullopt;
-}
 
 /// Fields between separators, blanks around them and quotes taken away.
 Words split(const std::string& line, char separator) {
@@ -108,7 +101,7 @@ bool is_sound_sentence(const std::string& line) {
 /// "4807.038", "N" in degrees.
 std::optional<double> degrees(const std::string& text, const std::string& side) {
   constexpr double kMinutes = 60.0, kHundred = 100.0;
-  const auto value = number(text);
+  const auto value = finite_number(text);
   if (!value || *value < 0.0 || side.size() != 1) return std::nullopt;
   const double whole = std::floor(*value / kHundred);
   const double angle = whole + (*value - kHundred * whole) / kMinutes;
@@ -146,7 +139,7 @@ std::optional<GpsRecord> fix_of(const Words& rmc, const std::map<std::string, Gg
   GpsRecord fix;
   fix.time_s = *time;
   fix.position = {*latitude, *longitude, 0.0};
-  const auto knots = number(rmc[7]), course = number(rmc[8]);
+  const auto knots = finite_number(rmc[7]), course = finite_number(rmc[8]);
   if (knots && course) fix.velocity = GroundVelocity{*knots * kKnot, *course};
   const auto gga = ggas.find(rmc[1]);
   if (gga == ggas.end()) return fix;
@@ -159,9 +152,9 @@ std::optional<GpsRecord> fix_of(const Words& rmc, const std::map<std::string, Gg
 void add_gga(const Words& fields, std::map<std::string, GgaFields>& ggas) {
   constexpr std::size_t kFields = 10;  // up to the altitude
   if (fields.size() < kFields) return;
-  const auto quality = number(fields[6]), satellites = number(fields[7]);
+  const auto quality = finite_number(fields[6]), satellites = finite_number(fields[7]);
   GgaFields gga;
-  gga.altitude_m = number(fields[9]).value_or(0.0);
+  gga.altitude_m = finite_number(fields[9]).value_or(0.0);
   const auto small = [](double value) { return value >= 0.0 && value < 100.0; };
   if (quality && small(*quality)) gga.quality = static_cast<int>(*quality);
   if (satellites && small(*satellites)) gga.satellites = static_cast<int>(*satellites);
@@ -210,7 +203,7 @@ class CsvRow {
     return column < words_.size() ? words_[column] : kNone;
   }
   [[nodiscard]] double value(std::size_t column, const char* name) const {
-    if (const auto found = number(text(column))) return *found;
+    if (const auto found = finite_number(text(column))) return *found;
     throw InputError(where_,
                      std::string(name) + " '" + text(column).substr(0, 40) + "' is no number",
                      "correct the line, or take it away");

@@ -2,12 +2,12 @@
 #include "import/stamps.h"
 
 #include "oneac/base/error.h"
+#include "oneac/base/finite_number.h"
 #include "oneac/base/input_file.h"
 
 #include <expat.h>
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <cstring>
 #include <fstream>
@@ -30,13 +30,9 @@ std::size_t line_of(XML_Parser parser) {
 #endif
 }
 
+/// Of an attribute; null when it is not there.
 std::optional<double> number(const char* text) {
-  if (text == nullptr) return std::nullopt;
-  double value = 0.0;
-  const char* end = text + std::strlen(text);
-  const auto result = std::from_chars(text, end, value);
-  const bool whole = result.ec == std::errc() && result.ptr == end && std::isfinite(value);
-  return whole ? std::optional(value) : std::nullopt;
+  return text == nullptr ? std::nullopt : finite_number(text);
 }
 
 /// What is read of a GPX file: <trkpt lat= lon=><ele/><time/></trkpt>.
@@ -63,7 +59,7 @@ class Track {
   }
   void close(const std::string& element) {
     if (!point_) return;
-    if (element == "ele") point_->position.altitude_m = number(trimmed().c_str()).value_or(0.0);
+    if (element == "ele") point_->position.altitude_m = finite_number(trimmed()).value_or(0.0);
     if (element == "time") {
       const auto time = date_stamp(trimmed());
       if (!time) return fail("time '" + trimmed() + "' is none such as 2024-05-01T10:00:00Z");

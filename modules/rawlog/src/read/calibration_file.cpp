@@ -3,13 +3,13 @@
 #include "calibration/calibration_numbers.h"
 
 #include "oneac/base/error.h"
+#include "oneac/base/finite_number.h"
 #include "oneac/base/input_file.h"
 #include "oneac/base/number_text.h"
 #include "oneac/observations/camera_view.h"
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <cmath>
 #include <fstream>
 #include <optional>
@@ -34,13 +34,9 @@ std::string without_comment(const std::string& line) {
   return !text.empty() && text.front() == ';' ? "" : text;
 }
 
-std::optional<double> number(const std::string& word) {
-  const char* begin = word.data() + (word.front() == '+' ? 1 : 0);
-  const char* end = word.data() + word.size();
-  double value = 0.0;
-  const auto result = std::from_chars(begin, end, value);
-  if (result.ec != std::errc() || result.ptr != end || !std::isfinite(value)) return std::nullopt;
-  return value;
+std::optional<double> number(std::string_view word) {
+  if (!word.empty() && word.front() == '+') word.remove_prefix(1);
+  return finite_number(word);
 }
 
 // Numbers of "[1 2; 3, 4]"; empty when something else is among them.

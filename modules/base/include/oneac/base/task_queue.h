@@ -18,9 +18,9 @@ class TaskQueue {
   /// Must not throw.
   using Task = std::function<void()>;
 
-  /// @param threads  at most, at least 1; one begins with each of the first tasks. Where the
+  /// @param threads  at most, at least 1: one begins with each of the first tasks. Where the
   /// machine
-  ///                 has no more, fewer are used; where it has none, add() runs the task
+  ///                 has no more, fewer do; where it has none, add() runs the task
   explicit TaskQueue(int threads);
   ~TaskQueue();
   TaskQueue(const TaskQueue&) = delete;

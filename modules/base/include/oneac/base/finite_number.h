@@ -1,0 +1,11 @@
+#pragma once
+
+#include <optional>
+#include <string_view>
+
+namespace oneac {
+
+/// The number that a text is, with nothing before or behind it; none for NaN and infinity.
+[[nodiscard]] std::optional<double> finite_number(std::string_view text);
+
+}  // namespace oneac

@@ -1,0 +1,17 @@
+#include "oneac/base/finite_number.h"
+
+#include <charconv>
+#include <cmath>
+#include <system_error>
+
+namespace oneac {
+
+std::optional<double> finite_number(std::string_view text) {
+  double value = 0.0;
+  const char* end = text.data() + text.size();
+  const auto result = std::from_chars(text.data(), end, value);
+  const bool whole = result.ec == std::errc() && result.ptr == end && std::isfinite(value);
+  return whole ? std::optional(value) : std::nullopt;
+}
+
+}  // namespace oneac
