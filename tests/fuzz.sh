@@ -15,6 +15,7 @@ targets=("$@")
 if [ $# -eq 0 ]; then
   for folder in tests/fuzz/corpus/*/; do targets+=("$(basename "$folder")"); done
 fi
+configure_preset fuzz -DONEAC_BUILD_TOGETHER=ON
 quietly build_preset fuzz "${targets[@]/#/fuzz_}"
 
 # is_slow PROGRAM FOLDER: whether an input took 10 s of CPU time, which is promised to none. Those
@@ -40,6 +41,11 @@ fuzz() {
     -rss_limit_mb=2560 -max_len=16384 -print_final_stats=1 -artifact_prefix="$found/finding-" \
     "$found" "tests/fuzz/corpus/$1"; } >"$found.log" 2>&1 || is_slow "$program" "$found"; then
     tail -n 60 "$found.log"
+    # A log is all that is left of another machine's run: `base64 -d` gives the input back.
+    local input
+    for input in "$found"/finding-*; do
+      [ -f "$input" ] && echo "fuzz: base64 of $input: $(head -c 16384 "$input" | base64 -w 0)"
+    done
     echo "fuzz: $1 has a finding, see build/fuzz/found/$1" >&2
     return 1
   fi

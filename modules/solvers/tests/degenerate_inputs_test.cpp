@@ -7,11 +7,14 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
 #include <limits>
+#include <random>
 #include <string>
 
 namespace oneac {
@@ -215,6 +218,58 @@ TEST(DegenerateInputs, PointSolversTakePointsWithoutAnAffinity) {
       for (AffineCorrespondence& ac : acs) ac.A.setZero();
       EXPECT_EQ(solver.run.count(AcSpan(acs)), full) << solver.name << ", scene " << i;
     }
+  }
+}
+
+/// What images never hold and files may: zeros, ones, up to 10^±reach, points that coincide.
+class AnyNumbers {
+ public:
+  explicit AnyNumbers(std::uint64_t seed) : random_(seed) {}
+
+  Correspondences correspondences(std::size_t count, int reach) {
+    Correspondences acs(count);
+    for (AffineCorrespondence& ac : acs) {
+      ac.x1 << number(reach), number(reach);
+      ac.x2 << number(reach), number(reach);
+      ac.A << number(reach), number(reach), number(reach), number(reach);
+      if (ac.A.determinant() < 0.0) ac.A.row(0).swap(ac.A.row(1));
+    }
+    if (random_() % 4 == 0) acs.back().x1 = acs.front().x1;
+    for (AffineCorrespondence& ac : acs) {
+      if (random_() % 4 == 0) ac.x2 = ac.x1;
+    }
+    return acs;
+  }
+
+ private:
+  double number(int reach) {
+    const auto kind = random_() % 16;
+    if (kind < 2) return static_cast<double>(kind);
+    const double small = std::uniform_real_distribution<>(-2.0, 2.0)(random_);
+    return kind < 9
+               ? small
+               : small * std::pow(10.0, std::uniform_int_distribution<>(-reach, reach)(random_));
+  }
+
+  std::mt19937_64 random_;
+};
+
+TEST(DegenerateInputs, AnyNumbersGiveRotationsOrNothing) {
+  constexpr int kTrials = 60000;
+  constexpr int kReaches[] = {0, 2, 12, 160};
+  constexpr double kRotation = 1e-7;  // what the decomposition of a homography says of its own
+  for (const Solver& solver : solvers()) {
+    AnyNumbers numbers(79);
+    double worst = 0.0;
+    for (int trial = 0; trial < kTrials; ++trial) {
+      const auto acs = numbers.correspondences(solver.sample, kReaches[trial % 4]);
+      for (const PlanePose& pose : solver.run.poses(AcSpan(acs))) {
+        const Eigen::Matrix3d& R = pose.motion.R;
+        ASSERT_TRUE(pose.motion.is_finite()) << solver.name << ", trial " << trial;
+        worst = std::max(worst, (R.transpose() * R - Eigen::Matrix3d::Identity()).norm());
+      }
+    }
+    EXPECT_LT(worst, kRotation) << solver.name;
   }
 }
 

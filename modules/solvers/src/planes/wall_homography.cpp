@@ -9,6 +9,9 @@ namespace {
 
 // Below this length [distances to the wall] t and n are rounding.
 constexpr double kNoMotion = 1e-7;
+// Share of GᵀG's entries that is rounding: a motion of 1e-7 parts its eigenvalues by more than
+// 1e-8.
+constexpr double kRounding = 1e-14;
 // Reciprocal condition of the normal equations below which the wall's homography is not determined.
 constexpr double kSingular = 1e-14;
 
@@ -83,7 +86,7 @@ struct Directions {
   const double half = 0.5 * (k00 - k11);
   const double radius = std::sqrt(half * half + k01 * k01);
   const double mean = 0.5 * (k00 + k11);
-  if (!(radius > 0.0)) return {};
+  if (!(radius > kRounding * (1.0 + std::abs(mean)))) return {};  // a scaled rotation: any would do
   const double large = radius + std::abs(half);
   const double scale = 1.0 / std::sqrt(2.0 * radius * large);
   const Eigen::Vector2d v1 = half > 0.0 ? Eigen::Vector2d(large * scale, k01 * scale)

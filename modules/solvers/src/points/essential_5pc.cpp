@@ -54,8 +54,8 @@ SolutionSet<Matrix3d, 10> essential_5pc(AcSpan points) {
   if (!internal::null_space<5, 9>(rows, kSingular, basis)) return solutions;
   basis = internal::well_scaled(basis, rays);
   for (const Matrix3d& E : internal::essentials_of(basis)) {
-    RelativePose T = internal::motion_near(E);
-    if (internal::polish_on_five_points(points, T)) solutions.push_back(essential_matrix(T));
+    auto T = internal::motion_near(E);
+    if (T && internal::polish_on_five_points(points, *T)) solutions.push_back(essential_matrix(*T));
   }
   return solutions;
 }

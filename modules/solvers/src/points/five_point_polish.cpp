@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <optional>
 #include <utility>
 
 namespace oneac::internal {
@@ -20,7 +21,11 @@ constexpr double kExact = 4e-16;  // epipolar residual that is rounding
 constexpr double kConverged =
     1e-14;                           // below it a step that does not halve the residual is the last
 constexpr double kAccepted = 1e-13;  // residual above which a root was none
-constexpr int kApproaches = 2;       // of Newton–Schulz: 1e-4 from orthonormal becomes 1e-16
+// Newton–Schulz squares the distance from orthonormal: 1e-4 becomes 1e-16 in two approaches, 0.9 in
+// eight. What is no rotation then came from a matrix that is not essential.
+constexpr int kApproaches = 2;
+constexpr int kMostApproaches = 8;
+constexpr double kOrthonormal = 1e-12;
 // A step is at most this long [rad]: what asks for more is no neighbour.
 constexpr double kLongestStep = 1.0;
 
@@ -71,6 +76,11 @@ using Tangents = Eigen::Matrix<double, 3, 2>;
   return std::all_of(m, m + 5, [](const double(&row)[6]) { return std::isfinite(row[5]); });
 }
 
+/// False for what is not finite, too.
+[[nodiscard]] bool is_identity(const Eigen::Matrix3d& M) {
+  return (M - Eigen::Matrix3d::Identity()).squaredNorm() < kOrthonormal * kOrthonormal;
+}
+
 [[nodiscard]] Eigen::Vector3d at_most(double length, const Eigen::Vector3d& step) {
   const double norm = step.norm();
   return norm > length ? Eigen::Vector3d(step * (length / norm)) : step;
@@ -78,7 +88,7 @@ using Tangents = Eigen::Matrix<double, 3, 2>;
 
 }  // namespace
 
-RelativePose motion_near(const Eigen::Matrix3d& E) {
+std::optional<RelativePose> motion_near(const Eigen::Matrix3d& E) {
   Eigen::Matrix3d cofactors;
   for (int i = 0; i < 3; ++i) cofactors.row(i) = E.row((i + 1) % 3).cross(E.row((i + 2) % 3));
   const Eigen::Matrix3d ttT =
@@ -89,9 +99,12 @@ RelativePose motion_near(const Eigen::Matrix3d& E) {
   T.t = ttT.col(largest).normalized();
   T.R = (2.0 / E.squaredNorm()) * cofactors -
         std::sqrt(2.0 / E.squaredNorm()) * cross_matrix(T.t) * E;
-  for (int i = 0; i < kApproaches; ++i) {
-    T.R = 0.5 * T.R * (3.0 * Eigen::Matrix3d::Identity() - T.R.transpose() * T.R);
+  for (int i = 0; i < kMostApproaches; ++i) {
+    const Eigen::Matrix3d RtR = T.R.transpose() * T.R;
+    if (i >= kApproaches && is_identity(RtR)) break;
+    T.R = 0.5 * T.R * (3.0 * Eigen::Matrix3d::Identity() - RtR);
   }
+  if (!T.t.allFinite() || !is_identity(T.R.transpose() * T.R)) return std::nullopt;
   return T;
 }
 

@@ -111,10 +111,9 @@ using Candidates = SolutionSet<Candidate, 10>;
   if (!internal::null_space<5, 9, 6>(rows, kSingular, basis)) return candidates;
   for (const Eigen::Matrix3d& E :
        internal::essentials_of(internal::well_scaled(basis, rays_of(acs)))) {
-    Candidate candidate{internal::motion_near(E), 0.0};
-    if (!candidate.T.is_finite() || !put_before_cameras(acs, candidate.T)) continue;
-    candidate.residual = (rows * internal::packed(E)).norm();
-    candidates.push_back(candidate);
+    auto T = internal::motion_near(E);
+    if (!T || !put_before_cameras(acs, *T)) continue;
+    candidates.push_back({*T, (rows * internal::packed(E)).norm()});
     for (std::size_t i = candidates.size() - 1; i > 0; --i) {
       if (!(candidates[i].residual < candidates[i - 1].residual)) break;
       std::swap(candidates[i], candidates[i - 1]);
