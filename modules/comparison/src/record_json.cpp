@@ -325,6 +325,16 @@ PairRecord pair_from(const Json& json, const CompareSettings& settings, const Lo
   record.index1 = count_in(json.at("index1"), "index1", log.last_index + 1);
   record.index2 = count_in(json.at("index2"), "index2", log.last_index + 1);
   if (record.index1 >= record.index2) fail("index1", json["index1"], "below index2");
+  // Pairs before this one and behind it have images of their own.
+  if (record.index1 < record.ordinal) {
+    fail("index1", json["index1"], "at least the pair's number");
+  }
+  const std::size_t behind = log.pairs - 1 - record.ordinal;
+  if (record.index2 + behind > log.last_index) {
+    fail("index2", json["index2"],
+         "at most " + std::to_string(log.last_index) + " less the " + std::to_string(behind) +
+             " pairs behind");
+  }
   record.acs = count_in(json.at("acs"), "acs");
   if (!json.at("truth").is_null()) record.truth = pose_from(json["truth"], "truth");
   take_results(json.at("results"), settings, record);

@@ -183,6 +183,8 @@ TEST(Journal, ChecksEveryFieldAndNamesTheLine) {
                         Case{4, "\"pair\":1", "\"pair\":0", "pair 0 is there twice"},
                         Case{3, "\"index2\":1", "\"index2\":99999", "index2 is 99999"},
                         Case{3, "\"index2\":1", "\"index2\":0", "below index2"},
+                        Case{3, "\"index2\":1", "\"index2\":3", "less the 2 pairs behind"},
+                        Case{4, "\"index1\":1", "\"index1\":0", "at least the pair's number"},
                         Case{3, "\"acs\":100", "\"acs\":69", "inliers is 70"},
                         Case{3, "\"ok\"", "\"fine\"", "status"},
                         Case{3, "\"ok\"", "\"too_few\"", "entries"},

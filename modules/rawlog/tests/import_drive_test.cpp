@@ -89,6 +89,14 @@ TEST_F(ImportImages, TakesThemInTheOrderOfTheirNumbersAtTheGivenRate) {
   expect_times({1317016800.0, 1317016800.05, 1317016800.1});
 }
 
+TEST_F(ImportImages, DecimalsOfSecondsAreNoCounter) {
+  make_images({"t1311868164.5.png", "t1311868164.25.png", "t1311868164.025.png"});
+  import_image_folder(options_);
+  EXPECT_EQ(names(), (std::vector<std::string>{"t1311868164.025.png", "t1311868164.25.png",
+                                               "t1311868164.5.png"}));
+  expect_times({1311868164.025, 1311868164.25, 1311868164.5});
+}
+
 TEST_F(ImportImages, StoresCalibrationAndMounting) {
   make_images({"a1.png", "a2.png"});
   options_.fps = 10.0;
@@ -504,6 +512,7 @@ TEST_F(ImportVideoGps, OfGpx) {
   const ImportReport report = import_with("2024-05-01T10:00:01Z");
   expect_fixes(report, false);
   EXPECT_TRUE(notes(report, "1 points of drive.gpx"));
+  EXPECT_FALSE(notes(report, "zone"));
   // Backwards, and in the time of Berlin.
   std::string turned = head + point("48.1175", "2") + point("48.1174", "1") +
                        point("48.1173", "0") + "</trkseg></trk></gpx>\n";
@@ -513,6 +522,9 @@ TEST_F(ImportVideoGps, OfGpx) {
   }
   write_text(options_.gpx, turned);
   expect_fixes(import_with("2024-05-01T06:30:01-0330"), false);
+  turned.replace(turned.find("+02:00"), 6, "");
+  write_text(options_.gpx, turned);
+  EXPECT_TRUE(notes(import_with("2024-05-01T10:00:01Z"), "1 times of drive.gpx name no zone"));
   const auto said = [&] { return complaint_of([&] { import_video(options_); }); };
   write_text(options_.gpx, head + point("north", "0") + "</trkseg></trk></gpx>\n");
   EXPECT_NE(said().find("drive.gpx: line 3: trkpt has no lat"), std::string::npos) << said();
@@ -527,6 +539,16 @@ TEST_F(ImportVideoGps, OfATable) {
              "1714557601000,48.1174,-11.516667,545.4,41.5,84\n"
              "1714557602000,48.1175,-11.516667,545.4,41.5,84\n1714557700000,48.2,-11.5,545,0,0\n");
   expect_fixes(import_with(), true);
+  std::ifstream counted(options_.csv);
+  std::string dated(std::istreambuf_iterator<char>(counted), {});
+  for (const char* second : {"0", "1", "2"}) {
+    const std::string number = "171455760" + std::string(second) + "000";
+    dated.replace(dated.find(number), number.size(), "2024-05-01 10:00:0" + std::string(second));
+  }
+  write_text(options_.csv, dated);
+  const ImportReport of_dates = import_with();
+  expect_fixes(of_dates, true);
+  EXPECT_TRUE(notes(of_dates, "3 times of drive.csv name no zone"));
   // Where a receiver is before its first fix.
   std::ifstream stream(options_.csv);
   const std::string table(std::istreambuf_iterator<char>(stream), {});

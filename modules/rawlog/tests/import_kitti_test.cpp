@@ -351,6 +351,13 @@ TEST_F(ImportKitti, RefusesOneImageInTwoFormats) {
   EXPECT_NE(complaint().find("beside"), std::string::npos) << complaint();
 }
 
+TEST_F(ImportKitti, RefusesOneNumberTwice) {
+  make_sequence();
+  fs::copy_file(options_.source / "image_0" / "000001.png", options_.source / "image_0" / "1.png");
+  EXPECT_NE(complaint().find("1.png"), std::string::npos) << complaint();
+  EXPECT_NE(complaint().find("beside"), std::string::npos) << complaint();
+}
+
 TEST_F(ImportKitti, RefusesASkewAndWhatNoCameraHas) {
   make_sequence();
   write_text(options_.source / "calib.txt", "P0: 720 99 610 0 0 720 170 0 0 0 1 0\n");

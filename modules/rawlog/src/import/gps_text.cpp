@@ -215,6 +215,10 @@ class CsvRow {
     throw InputError(where_, "time '" + text(column).substr(0, 40) + "' is none since 1970",
                      "give s, ms, us or ns since 1970, or 2024-05-01T10:00:00Z");
   }
+  /// Of a date; what is counted since 1970 needs none.
+  [[nodiscard]] bool lacks_zone(std::size_t column) const {
+    return seconds_since_1970(text(column)) < 0.0 && !names_zone(text(column));
+  }
 
  private:
   const Words& words_;
@@ -293,6 +297,12 @@ std::vector<GpsRecord> read_nmea(const fs::path& file, ImportReport& report) {
   return fixes.finish();
 }
 
+void note_times_without_zone(std::size_t count, const fs::path& file, ImportReport& report) {
+  if (count == 0) return;
+  report.notes.push_back(std::to_string(count) + " times of " + file.filename().string() +
+                         " name no zone (Z, +02:00) and are taken as UTC");
+}
+
 std::vector<GpsRecord> read_gps_csv(const fs::path& file, ImportReport& report) {
   std::ifstream stream = open_input(file, "check its name");
   std::string line;
@@ -310,13 +320,17 @@ std::vector<GpsRecord> read_gps_csv(const fs::path& file, ImportReport& report) 
                            "speed_kmh or speed_knots");
   }
   Fixes fixes(file, report);
+  std::size_t without_zone = 0;
   for (std::size_t number_of_line = 2; std::getline(stream, line); ++number_of_line) {
     const Words words = split(line, separator);
     const bool blank = std::all_of(words.begin(), words.end(),
                                    [](const std::string& word) { return word.empty(); });
     if (blank) continue;
-    fixes.add(fix_of(CsvRow(words, at(file.string(), number_of_line)), columns), number_of_line);
+    const CsvRow row(words, at(file.string(), number_of_line));
+    fixes.add(fix_of(row, columns), number_of_line);
+    without_zone += row.lacks_zone(*columns.time) ? 1 : 0;
   }
+  note_times_without_zone(without_zone, file, report);
   return fixes.finish();
 }
 

@@ -33,4 +33,9 @@ namespace oneac {
 /// @return how many were left out
 [[nodiscard]] std::size_t put_in_order(std::vector<GpsRecord>& fixes);
 
+/// Notes how many of a file's times name no zone, if any: receivers in a country's own time put the
+/// track hours away from the images.
+void note_times_without_zone(std::size_t count, const std::filesystem::path& file,
+                             ImportReport& report);
+
 }  // namespace oneac

@@ -64,6 +64,7 @@ class Track {
       const auto time = date_stamp(trimmed());
       if (!time) return fail("time '" + trimmed() + "' is none such as 2024-05-01T10:00:00Z");
       point_->time_s = *time;
+      without_zone_ += names_zone(trimmed()) ? 0 : 1;
     }
     if (element == "trkpt") finish_point();
   }
@@ -71,6 +72,7 @@ class Track {
   [[nodiscard]] const std::string& fault() const { return fault_; }
   [[nodiscard]] std::size_t line() const { return line_; }
   [[nodiscard]] std::size_t passed_over() const { return passed_over_; }
+  [[nodiscard]] std::size_t without_zone() const { return without_zone_; }
   [[nodiscard]] std::vector<GpsRecord>& points() { return points_; }
 
  private:
@@ -105,7 +107,7 @@ class Track {
   std::optional<GpsRecord> point_;
   std::string text_;
   std::vector<GpsRecord> points_;
-  std::size_t passed_over_ = 0, line_ = 0;
+  std::size_t passed_over_ = 0, without_zone_ = 0, line_ = 0;
   std::string fault_;
 };
 
@@ -148,6 +150,7 @@ std::vector<GpsRecord> read_gpx(const fs::path& file, ImportReport& report) {
     throw InputError(file.string(), "it holds no trkpt with a time",
                      "export the track with its times");
   }
+  note_times_without_zone(track.without_zone(), file, report);
   if (passed_over > 0) {
     report.notes.push_back(
         std::to_string(passed_over) + " points of " + file.filename().string() +

@@ -26,11 +26,62 @@ bool is_foreign_image(const fs::path& path) {
   return !is_hidden(path) && kForeign.count(lower_extension(path)) > 0;
 }
 
-/// One moment would be there twice: "000003.jpg" beside "000003.png".
+bool is_digit(char c) {
+  return c >= '0' && c <= '9';
+}
+
+std::size_t behind_number(std::string_view text, std::size_t at) {
+  while (at < text.size() && is_digit(text[at])) ++at;
+  return at;
+}
+
+/// The digits from `at` on, without zeros in front.
+std::string_view number_at(std::string_view text, std::size_t at) {
+  const std::size_t end = behind_number(text, at);
+  while (at + 1 < end && text[at] == '0') ++at;
+  return text.substr(at, end - at);
+}
+
+/// Whether the digits at `at` are decimals of seconds since 1970: "frame_1311868164.0363". Behind a
+/// shorter number a point parts two counters: "cam1.9", "cam1.10".
+bool is_fraction(std::string_view text, std::size_t at) {
+  constexpr std::size_t kDigits = 9;
+  if (at <= kDigits || text[at - 1] != '.') return false;
+  const auto whole = text.substr(at - 1 - kDigits, kDigits);
+  return std::all_of(whole.begin(), whole.end(), is_digit);
+}
+
+/// Below, at or above zero as the digits of one name at i come before, equal or follow those of
+/// the other at j.
+int compare_numbers(std::string_view a, std::size_t i, std::string_view b, std::size_t j) {
+  if (is_fraction(a, i) && is_fraction(b, j)) {
+    return a.substr(i, behind_number(a, i) - i).compare(b.substr(j, behind_number(b, j) - j));
+  }
+  const std::string_view m = number_at(a, i), n = number_at(b, j);
+  if (m.size() != n.size()) return m.size() < n.size() ? -1 : 1;
+  return m.compare(n);
+}
+
+/// A name with its numbers as one writes them: "img007" and "img7" are one moment.
+std::string without_padding(std::string_view name) {
+  std::string text;
+  for (std::size_t i = 0; i < name.size();) {
+    if (!is_digit(name[i])) {
+      text += name[i++];
+      continue;
+    }
+    const std::size_t end = behind_number(name, i);
+    text += is_fraction(name, i) ? name.substr(i, end - i) : number_at(name, i);
+    i = end;
+  }
+  return text;
+}
+
+/// One moment would be there twice: "000003.jpg" beside "000003.png", or beside "3.jpg".
 void require_different_names(const std::vector<fs::path>& images) {
   std::map<std::string, fs::path> stems;
   for (const fs::path& image : images) {
-    const auto [known, is_new] = stems.emplace(image.stem().string(), image);
+    const auto [known, is_new] = stems.emplace(without_padding(image.stem().native()), image);
     if (is_new) continue;
     throw InputError(image.string(),
                      "is there beside " + known->second.filename().string() +
@@ -39,31 +90,12 @@ void require_different_names(const std::vector<fs::path>& images) {
   }
 }
 
-bool is_digit(char c) {
-  return c >= '0' && c <= '9';
-}
-
-/// The digits from `at` on, without zeros in front.
-std::string_view number_at(std::string_view text, std::size_t at) {
-  std::size_t end = at;
-  while (end < text.size() && is_digit(text[end])) ++end;
-  while (at + 1 < end && text[at] == '0') ++at;
-  return text.substr(at, end - at);
-}
-
-std::size_t behind_number(std::string_view text, std::size_t at) {
-  while (at < text.size() && is_digit(text[at])) ++at;
-  return at;
-}
-
 /// Numbers in names count by their value, however many digits they have.
 bool comes_before(std::string_view a, std::string_view b) {
   std::size_t i = 0, j = 0;
   while (i < a.size() && j < b.size()) {
     if (is_digit(a[i]) && is_digit(b[j])) {
-      const std::string_view m = number_at(a, i), n = number_at(b, j);
-      if (m.size() != n.size()) return m.size() < n.size();
-      if (m != n) return m < n;
+      if (const int order = compare_numbers(a, i, b, j); order != 0) return order < 0;
       i = behind_number(a, i);
       j = behind_number(b, j);
       continue;

@@ -239,6 +239,11 @@ std::optional<double> date_stamp(const std::string& text) {
   return static_cast<double>(timegm(&calendar)) + part - *zone;
 }
 
+bool names_zone(std::string_view date) {
+  const auto clock = date.find_first_of("T ");
+  return clock != std::string_view::npos && date.find_first_of("Z+-", clock) != date.npos;
+}
+
 std::vector<double> read_date_stamps(const fs::path& file) {
   std::ifstream stream = open_input(file, "put the file there");
   std::vector<double> times;

@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace oneac {
@@ -35,6 +36,9 @@ inline constexpr double kImportEpoch_s = 1317016800.0;
 
 /// Unix time [s] of "2011-09-26 13:02:25.594360375" or "2011-09-26T13:02:25Z", taken for UTC.
 [[nodiscard]] std::optional<double> date_stamp(const std::string& text);
+
+/// Whether such a date says its zone; where it does not, it was taken as UTC.
+[[nodiscard]] bool names_zone(std::string_view date);
 
 /// Unix times [s] of lines "2011-09-26 13:02:25.594360375", taken for UTC.
 /// @throws InputError naming file and line
