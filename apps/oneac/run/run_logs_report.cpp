@@ -92,7 +92,11 @@ std::string why_apart(const ClosedDrive& drive, const ClosedDrives& closed) {
   const bool metric = std::any_of(drive.keyframes.begin(), drive.keyframes.end(),
                                   [](const LoopKeyframe& k) { return k.metric; });
   if (!metric) return "it has no keyframe in metres";
-  return "no stretch proves beyond doubt that both saw one place";
+  std::string why = "no stretch proves beyond doubt that both saw one place";
+  if (const std::size_t apart = closed.report.apart_by_gps; apart > 0) {
+    why += " (GPS has " + std::to_string(apart) + " pairs that look alike far from each other)";
+  }
+  return why;
 }
 
 }  // namespace
@@ -137,6 +141,7 @@ std::string logs_summary_json(const std::vector<RecordedDrive>& drives, const Cl
                  {"keyframes_not_metric", report.not_metric},
                  {"pairs_alike", report.candidates},
                  {"pairs_verified", report.verified},
+                 {"apart_by_gps", report.apart_by_gps},
                  {"refused_by_odometry", report.impossible},
                  {"refused_by_other_loops", report.contradicted}}}};
   if (closed.global) json["loops"]["global_ba"] = global_json(*closed.global);

@@ -220,6 +220,7 @@ Json loops_json(const ClosedDrive& closed, const RunEvaluation& evaluation) {
     json.update({{"keyframes_not_metric", report.not_metric},
                  {"pairs_alike", report.candidates},
                  {"pairs_verified", report.verified},
+                 {"apart_by_gps", report.apart_by_gps},
                  {"refused_by_odometry", report.impossible},
                  {"refused_by_other_loops", report.contradicted}});
   } else {

@@ -164,7 +164,7 @@ Indices joining_pair(const Indices& all, const Placings& placings, double least_
 }  // namespace
 
 bool may_meet(std::size_t a, std::size_t b, const Chain& chain) {
-  if (!chain.known(a, b)) return true;
+  if (!chain.known(a, b)) return !chain.apart_by_gps(a, b);
   const UncertainPose way = chain.between(a, b);
   const Eigen::Matrix3d covariance = kDoubt * kDoubt * way.covariance.topLeftCorner<3, 3>() +
                                      kOnePlace_m * kOnePlace_m * Eigen::Matrix3d::Identity();
@@ -174,7 +174,8 @@ bool may_meet(std::size_t a, std::size_t b, const Chain& chain) {
 
 bool is_possible(const LoopConstraint& loop, const Chain& chain) {
   if (!chain.known(loop.first, loop.second)) {
-    return chain.can_be_driven(loop.first, loop.second, of_loop(loop).T);
+    return !chain.apart_by_gps(loop.first, loop.second) &&
+           chain.can_be_driven(loop.first, loop.second, of_loop(loop).T);
   }
   const UncertainPose error = chain.between(loop.first, loop.second) * inverse(of_loop(loop));
   return squared_distance(error, kDoubt) < kChi2;

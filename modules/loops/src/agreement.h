@@ -13,8 +13,8 @@ namespace oneac::internal {
 /// lost between them, whether a car could have driven so far in that time.
 [[nodiscard]] bool is_possible(const LoopConstraint& loop, const Chain& chain);
 
-/// Whether the odometry allows that the two keyframes see one place at all: before anything is
-/// compared. Where it knows nothing it allows everything.
+/// Whether odometry, or GPS where that knows nothing, allows that the two keyframes see one place
+/// at all: before anything is compared.
 [[nodiscard]] bool may_meet(std::size_t a, std::size_t b, const Chain& chain);
 
 /// The loops that agree with those around them: each closes a cycle with `support` others at least,

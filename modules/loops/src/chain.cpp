@@ -21,6 +21,8 @@ constexpr double kFastest = 70.0;          // [m/s]
 constexpr double kSlack_m = 5.0;           // [m]
 // Of the ways on either side: two, and twice as unsure as told.
 constexpr double kDriftSigmas = 4.0;
+// [m] Two fixes of 10 m each, as between houses or a second late, at four of their 1σ.
+constexpr double kApartByGps_m = 60.0;
 constexpr std::size_t kSpeedSteps = 5;  // to the gap: the last may be false already
 
 Matrix6 carried(const Matrix6& covariance, const Eigen::Isometry3d& T) {
@@ -115,6 +117,7 @@ void Chain::add(const LoopKeyframe& keyframe) {
   parts_.push_back(stretches_.size() - 1);
   times_.push_back(keyframe.time_s);
   metric_.push_back(keyframe.metric);
+  places_.push_back(keyframe.place);
   poses_.push_back(here);
   sums_.push_back(sum);
   driven_.push_back(driven);
@@ -150,6 +153,11 @@ bool Chain::can_be_driven(std::size_t a, std::size_t b, const Eigen::Isometry3d&
   const double most = std::min(usual + 0.25 * kMostAcceleration * seconds, kFastest) * seconds;
   const double drift = kDriftSigmas * std::sqrt(leap.covariance.topLeftCorner<3, 3>().trace());
   return leap.T.translation().norm() < most + kSlack_m + drift;
+}
+
+bool Chain::apart_by_gps(std::size_t a, std::size_t b) const {
+  if (known(a, b) || !places_[a] || !places_[b]) return false;
+  return (*places_[a] - *places_[b]).norm() > kApartByGps_m;
 }
 
 Eigen::Matrix3d Chain::scale_covariance(std::size_t a, std::size_t b) const {

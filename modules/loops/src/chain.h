@@ -8,6 +8,7 @@
 #include <Eigen/Geometry>
 
 #include <cstddef>
+#include <optional>
 #include <vector>
 
 namespace oneac::internal {
@@ -50,6 +51,9 @@ class Chain {
   /// at T_a_b. Of two logs, and within a part, anything is.
   [[nodiscard]] bool can_be_driven(std::size_t a, std::size_t b,
                                    const Eigen::Isometry3d& T_a_b) const;
+  /// Whether GPS has two keyframes so far from each other that they cannot see one place; within a
+  /// part odometry knows better.
+  [[nodiscard]] bool apart_by_gps(std::size_t a, std::size_t b) const;
 
  private:
   /// Of lengths, [m²] of the first camera's frame: a stretch of the way is wrong by one factor.
@@ -66,6 +70,7 @@ class Chain {
   std::vector<Part> stretches_;
   std::vector<double> times_;
   std::vector<bool> metric_;
+  std::vector<std::optional<Eigen::Vector3d>> places_;
   std::vector<Eigen::Isometry3d> poses_;
   std::vector<std::size_t> parts_;
   std::vector<double> driven_;

@@ -72,7 +72,7 @@ class LoopCloser::Impl {
     found.report.keyframes = keyframes_.size();
     found.report.not_metric = static_cast<std::size_t>(std::count_if(
         keyframes_.begin(), keyframes_.end(), [](const auto& k) { return !k.metric; }));
-    const std::vector<Query> queries = confirmed(candidates());
+    const std::vector<Query> queries = confirmed(candidates(found.report));
     for (const Query& query : queries) found.report.candidates += query.places.size();
     const auto depths = depths_for(queries, threads, stop);
     std::vector<LoopConstraint> loops = verified(queries, depths, threads, stop, found.report);
@@ -88,7 +88,7 @@ class LoopCloser::Impl {
   using AllDepths = std::vector<FeatureDepths>;
 
   /// Places before each keyframe that look like it.
-  [[nodiscard]] std::vector<Query> candidates() const {
+  [[nodiscard]] std::vector<Query> candidates(LoopReport& report) const {
     std::vector<Query> queries(keyframes_.size());
     std::vector<const Descriptors8*> descriptors;
     for (const StoredFeatures& one : features_) descriptors.push_back(&one.descriptors);
@@ -103,9 +103,9 @@ class LoopCloser::Impl {
       if (!keyframes_[i].metric) continue;
       const auto most = static_cast<std::size_t>(options_.candidates);
       for (const AlikePlace& place : index.alike(i, end, most, kOnePlace)) {
-        const bool usable = keyframes_[place.keyframe].metric;
-        if (usable && may_meet(place.keyframe, i, chain_))
-          queries[i].places.push_back(place.keyframe);
+        if (!keyframes_[place.keyframe].metric) continue;
+        report.apart_by_gps += chain_.apart_by_gps(place.keyframe, i) ? 1 : 0;
+        if (may_meet(place.keyframe, i, chain_)) queries[i].places.push_back(place.keyframe);
       }
     }
     return queries;

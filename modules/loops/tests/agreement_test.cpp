@@ -95,6 +95,36 @@ TEST_F(Agreement, JoinsNoLogsThatMayLieInTwoWays) {
   EXPECT_EQ(joining(loops, chain, 30.0).size(), own);
 }
 
+TEST_F(Agreement, GpsKnowsLogsOfAlikeStreetsApart) {
+  const auto with_places = [this](double apart_m) {
+    auto keyframes = two_logs(truth_);
+    for (std::size_t i = 0; i < keyframes.size(); ++i) {
+      keyframes[i].place = truth_[i].translation();
+      if (i >= kLap) keyframes[i].place->x() += apart_m;
+    }
+    return keyframes;
+  };
+  const auto loop = test::loop_between(truth_, 10, 10 + kLap);
+  for (const double near : {0.0, 40.0}) {  // as GPS may be wrong
+    const Chain chain = test::chain_of(with_places(near));
+    EXPECT_TRUE(may_meet(loop.first, loop.second, chain) && is_possible(loop, chain)) << near;
+  }
+  const Chain far = test::chain_of(with_places(100.0));
+  EXPECT_FALSE(may_meet(loop.first, loop.second, far));
+  EXPECT_FALSE(is_possible(loop, far));
+  auto of_one = with_places(0.0);
+  of_one[loop.second].place.reset();
+  EXPECT_TRUE(is_possible(loop, test::chain_of(of_one)));
+}
+
+TEST_F(Agreement, WithinAPartGpsHasNoSay) {
+  auto keyframes = test::drifted(truth_, 0.02);
+  for (std::size_t i = 0; i < keyframes.size(); ++i) {
+    keyframes[i].place = Eigen::Vector3d(100.0 * static_cast<double>(i), 0.0, 0.0);
+  }
+  EXPECT_TRUE(is_possible(test::loop_between(truth_, 10, 10 + kLap), test::chain_of(keyframes)));
+}
+
 TEST_F(Agreement, JoinsNoLogsByAShortStretch) {
   const Chain chain = test::chain_of(two_logs(truth_));
   auto loops = true_loops();

@@ -46,6 +46,32 @@ TEST(VehicleReference, SaysNothingWithoutCover) {
   EXPECT_FALSE(drive({10}, {5}).heading_change(100.0, 100.5));
 }
 
+TEST(VehicleReference, PlacesOfTwoLogsCompareWhateverTheirOriginsAndHeights) {
+  const auto drive_from = [](double latitude, double altitude, double north) {
+    VehicleReference reference;
+    reference.origin = GeodeticFix{latitude, 8.4, altitude};
+    for (int i = 0; i < 3; ++i) {
+      reference.gps.push_back({100.0 + i, Eigen::Vector3d(0.0, north + 10.0 * i, 0.0), {}, {}});
+    }
+    return reference;
+  };
+  const double a_kilometre = 0.0089925;  // [deg] of latitude, at 49 degrees
+  const auto first = drive_from(49.0, 0.0, 0.0);
+  const auto second = drive_from(49.0 - a_kilometre, 545.0, 1000.0);
+  ASSERT_TRUE(first.place(101.5) && second.place(101.5));
+  EXPECT_NEAR((*first.place(101.5) - *first.place(100.0)).norm(), 15.0, 0.01);
+  EXPECT_LT((*first.place(101.5) - *second.place(101.5)).norm(), 1.0);
+  EXPECT_TRUE(first.place(102.0));
+  EXPECT_FALSE(first.place(99.9));
+  EXPECT_FALSE(first.place(102.1));
+  auto gap = first;
+  gap.gps[1].position_enu.reset();
+  EXPECT_TRUE(gap.place(101.5));
+  gap.gps[2].time_s += 4.0;
+  EXPECT_FALSE(gap.place(101.5)) << "six seconds";
+  EXPECT_FALSE(VehicleReference().place(100.0));
+}
+
 TEST(VehicleReference, DoesNotBridgeALongGap) {
   auto reference = drive({0, 0, 0, 0}, {5, 5, 5, 5});
   reference.gps[2].time_s += 20.0;

@@ -1,7 +1,13 @@
 #include "oneac/rawlog/vehicle_reference.h"
 
+#include "oneac/rawlog/sensor_records.h"
+
+#include <mrpt/topography/conversions.h>
+
 #include <algorithm>
 #include <cmath>
+#include <iterator>
+#include <utility>
 
 namespace oneac {
 namespace {
@@ -62,6 +68,16 @@ Samples unwrapped_courses(const std::vector<GpsFix>& gps) {
   return courses;
 }
 
+/// The fixes with a position around t: the last one before or at it, the first one after it.
+std::pair<const GpsFix*, const GpsFix*> around(const std::vector<GpsFix>& gps, double t) {
+  const auto next = std::upper_bound(gps.begin(), gps.end(), t,
+                                     [](double time, const GpsFix& f) { return time < f.time_s; });
+  const auto has_position = [](const GpsFix& fix) { return fix.position_enu.has_value(); };
+  const auto after = std::find_if(next, gps.end(), has_position);
+  const auto before = std::find_if(std::make_reverse_iterator(next), gps.rend(), has_position);
+  return {before == gps.rend() ? nullptr : &*before, after == gps.end() ? nullptr : &*after};
+}
+
 }  // namespace
 
 std::optional<double> VehicleReference::heading_change(double t0, double t1) const {
@@ -89,6 +105,23 @@ std::optional<double> VehicleReference::distance(double t0, double t1) const {
   }
   advance({t1, value_at(stated, t1)});
   return length;
+}
+
+std::optional<Eigen::Vector3d> VehicleReference::place(double t) const {
+  const auto [before, after] = around(gps, t);
+  const bool at_last = before != nullptr && before->time_s == t;
+  if (!origin || before == nullptr || (after == nullptr && !at_last)) return std::nullopt;
+  Eigen::Vector3d enu = *before->position_enu;
+  if (!at_last) {
+    const double gap = after->time_s - before->time_s;
+    if (!(gap <= kLongestGap)) return std::nullopt;
+    enu += (t - before->time_s) / gap * (*after->position_enu - enu);
+  }
+  const GeodeticPosition here =
+      geodetic_from_enu(enu, {origin->latitude_deg, origin->longitude_deg, origin->height});
+  mrpt::math::TPoint3D earth;
+  mrpt::topography::geodeticToGeocentric_WGS84({here.latitude_deg, here.longitude_deg, 0.0}, earth);
+  return Eigen::Vector3d(earth.x, earth.y, earth.z);
 }
 
 }  // namespace oneac

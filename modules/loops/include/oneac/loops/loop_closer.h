@@ -30,7 +30,8 @@ struct LoopCamera {
 struct LoopReport {
   std::size_t keyframes = 0;     ///< that were looked at
   std::size_t not_metric = 0;    ///< of them, without metres: no loop may end there
-  std::size_t candidates = 0;    ///< pairs that look alike
+  std::size_t apart_by_gps = 0;  ///< pairs that look alike and by GPS are far from each other
+  std::size_t candidates = 0;    ///< other pairs that look alike
   std::size_t verified = 0;      ///< of them, that share a scene by affine correspondences
   std::size_t impossible = 0;    ///< of these, that odometry or a car's speed contradict
   std::size_t contradicted = 0;  ///< that other loops contradict, too few support, or double

@@ -6,6 +6,7 @@
 #include <Eigen/Geometry>
 
 #include <cstddef>
+#include <optional>
 #include <vector>
 
 namespace oneac {
@@ -24,6 +25,8 @@ struct LoopKeyframe {
   /// part of the way begins, which only loops can join to the others.
   Eigen::Matrix<double, 6, 6> covariance = Eigen::Matrix<double, 6, 6>::Zero();
   double scale_sigma = 0.0;  ///< relative 1σ of lengths here, shared by neighbours
+  /// Where a GPS had the vehicle, in one frame for all logs [m]; only ever refuses a loop.
+  std::optional<Eigen::Vector3d> place;
 };
 
 /// A step of the odometry.

@@ -31,6 +31,9 @@ struct VehicleReference {
   [[nodiscard]] std::optional<double> heading_change(double t0, double t1) const;
   /// Speed integrated over [t0, t1] by the trapezium rule [m]; empty when speeds do not cover it.
   [[nodiscard]] std::optional<double> distance(double t0, double t1) const;
+  /// Where on the earth the receiver was, between the fixes around t, which are 5 s apart at most:
+  /// earth-centred, on the WGS84 ellipsoid, since receivers disagree on heights [m].
+  [[nodiscard]] std::optional<Eigen::Vector3d> place(double t) const;
 };
 
 /// What GPS and IMU say over a whole log, images passed over; of a damaged log what can be read.
