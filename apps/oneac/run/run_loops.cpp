@@ -37,7 +37,9 @@ std::vector<LoopKeyframe> loop_keyframes(const std::vector<RecordedDrive>& drive
       LoopKeyframe keyframe = to_loop_keyframe(now, i > 0 ? &before : nullptr, steps_of(record),
                                                record.common_length_sigma);
       keyframe.log = log;
-      keyframe.place = record.source.reference.place(keyframe.time_s);
+      if (const auto place = record.source.reference.place(keyframe.time_s)) {
+        keyframe.place = GpsPlace{place->point, place->course};
+      }
       keyframe.id += first_id;
       all.push_back(keyframe);
       before = std::move(now);

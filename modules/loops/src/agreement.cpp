@@ -25,6 +25,8 @@ constexpr double kDoubt = 2.0;
 // [m] 1σ of how far apart two cameras are whose images have a loop in common.
 constexpr double kOnePlace_m = 5.0;
 constexpr double kPlaceChi2 = 16.27;  // χ² of three degrees of freedom, 99.9 %
+// [rad] Features of views that differ by more do not match.
+constexpr double kMostTurn = 45.0 * M_PI / 180;
 
 double squared_distance(const UncertainPose& error, double doubt) {
   const Vector6 e = small_motion(error.T);
@@ -164,7 +166,7 @@ Indices joining_pair(const Indices& all, const Placings& placings, double least_
 }  // namespace
 
 bool may_meet(std::size_t a, std::size_t b, const Chain& chain) {
-  if (!chain.known(a, b)) return !chain.apart_by_gps(a, b);
+  if (!chain.known(a, b)) return !chain.apart_by_gps(a, b, kMostTurn);
   const UncertainPose way = chain.between(a, b);
   const Eigen::Matrix3d covariance = kDoubt * kDoubt * way.covariance.topLeftCorner<3, 3>() +
                                      kOnePlace_m * kOnePlace_m * Eigen::Matrix3d::Identity();
@@ -174,7 +176,8 @@ bool may_meet(std::size_t a, std::size_t b, const Chain& chain) {
 
 bool is_possible(const LoopConstraint& loop, const Chain& chain) {
   if (!chain.known(loop.first, loop.second)) {
-    return !chain.apart_by_gps(loop.first, loop.second) &&
+    const double turn = Eigen::AngleAxisd(loop.T_2_1.R).angle();
+    return !chain.apart_by_gps(loop.first, loop.second, turn) &&
            chain.can_be_driven(loop.first, loop.second, of_loop(loop).T);
   }
   const UncertainPose error = chain.between(loop.first, loop.second) * inverse(of_loop(loop));

@@ -23,7 +23,8 @@ constexpr double kSlack_m = 5.0;           // [m]
 constexpr double kDriftSigmas = 4.0;
 // [m] Two fixes of 10 m each, as between houses or a second late, at four of their 1σ.
 constexpr double kApartByGps_m = 60.0;
-constexpr std::size_t kSpeedSteps = 5;  // to the gap: the last may be false already
+constexpr double kCourseByGps = 45.0 * M_PI / 180;  // [rad] a second late in a bend
+constexpr std::size_t kSpeedSteps = 5;              // to the gap: the last may be false already
 
 Matrix6 carried(const Matrix6& covariance, const Eigen::Isometry3d& T) {
   const Matrix6 A = adjoint(T);
@@ -155,9 +156,13 @@ bool Chain::can_be_driven(std::size_t a, std::size_t b, const Eigen::Isometry3d&
   return leap.T.translation().norm() < most + kSlack_m + drift;
 }
 
-bool Chain::apart_by_gps(std::size_t a, std::size_t b) const {
+bool Chain::apart_by_gps(std::size_t a, std::size_t b, double turn) const {
   if (known(a, b) || !places_[a] || !places_[b]) return false;
-  return (*places_[a] - *places_[b]).norm() > kApartByGps_m;
+  const GpsPlace &first = *places_[a], &second = *places_[b];
+  if ((first.point - second.point).norm() > kApartByGps_m) return true;
+  if (!first.course || !second.course) return false;
+  const double between = std::abs(std::remainder(*first.course - *second.course, 2.0 * M_PI));
+  return between > turn + kCourseByGps;
 }
 
 Eigen::Matrix3d Chain::scale_covariance(std::size_t a, std::size_t b) const {

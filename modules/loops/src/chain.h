@@ -51,9 +51,10 @@ class Chain {
   /// at T_a_b. Of two logs, and within a part, anything is.
   [[nodiscard]] bool can_be_driven(std::size_t a, std::size_t b,
                                    const Eigen::Isometry3d& T_a_b) const;
-  /// Whether GPS has two keyframes so far from each other that they cannot see one place; within a
-  /// part odometry knows better.
-  [[nodiscard]] bool apart_by_gps(std::size_t a, std::size_t b) const;
+  /// Whether GPS has two keyframes so far from each other, or under way in so different directions,
+  /// that they cannot see one place; within a part odometry knows better.
+  /// @param turn  [rad] from one view to the other, at most
+  [[nodiscard]] bool apart_by_gps(std::size_t a, std::size_t b, double turn) const;
 
  private:
   /// Of lengths, [m²] of the first camera's frame: a stretch of the way is wrong by one factor.
@@ -70,7 +71,7 @@ class Chain {
   std::vector<Part> stretches_;
   std::vector<double> times_;
   std::vector<bool> metric_;
-  std::vector<std::optional<Eigen::Vector3d>> places_;
+  std::vector<std::optional<GpsPlace>> places_;
   std::vector<Eigen::Isometry3d> poses_;
   std::vector<std::size_t> parts_;
   std::vector<double> driven_;

@@ -104,8 +104,11 @@ class LoopCloser::Impl {
       const auto most = static_cast<std::size_t>(options_.candidates);
       for (const AlikePlace& place : index.alike(i, end, most, kOnePlace)) {
         if (!keyframes_[place.keyframe].metric) continue;
-        report.apart_by_gps += chain_.apart_by_gps(place.keyframe, i) ? 1 : 0;
-        if (may_meet(place.keyframe, i, chain_)) queries[i].places.push_back(place.keyframe);
+        if (may_meet(place.keyframe, i, chain_)) {
+          queries[i].places.push_back(place.keyframe);
+        } else if (!chain_.known(place.keyframe, i)) {
+          ++report.apart_by_gps;
+        }
       }
     }
     return queries;

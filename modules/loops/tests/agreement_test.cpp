@@ -99,8 +99,8 @@ TEST_F(Agreement, GpsKnowsLogsOfAlikeStreetsApart) {
   const auto with_places = [this](double apart_m) {
     auto keyframes = two_logs(truth_);
     for (std::size_t i = 0; i < keyframes.size(); ++i) {
-      keyframes[i].place = truth_[i].translation();
-      if (i >= kLap) keyframes[i].place->x() += apart_m;
+      keyframes[i].place = GpsPlace{truth_[i].translation(), {}};
+      if (i >= kLap) keyframes[i].place->point.x() += apart_m;
     }
     return keyframes;
   };
@@ -117,10 +117,23 @@ TEST_F(Agreement, GpsKnowsLogsOfAlikeStreetsApart) {
   EXPECT_TRUE(is_possible(loop, test::chain_of(of_one)));
 }
 
+TEST_F(Agreement, StreetsAcrossEachOtherAreNotOnePlaceByGps) {
+  const auto possible = [this](double first, double second) {
+    auto keyframes = two_logs(truth_);
+    const auto loop = test::loop_between(truth_, 10, 10 + kLap);
+    keyframes[loop.first].place = GpsPlace{Eigen::Vector3d::Zero(), first};
+    keyframes[loop.second].place = GpsPlace{Eigen::Vector3d(40.0, 0.0, 0.0), second};
+    return is_possible(loop, test::chain_of(keyframes));
+  };
+  EXPECT_TRUE(possible(0.1, 2.0 * M_PI - 0.5));
+  EXPECT_FALSE(possible(0.1, M_PI / 2));
+  EXPECT_FALSE(possible(0.1, -M_PI / 2));
+}
+
 TEST_F(Agreement, WithinAPartGpsHasNoSay) {
   auto keyframes = test::drifted(truth_, 0.02);
   for (std::size_t i = 0; i < keyframes.size(); ++i) {
-    keyframes[i].place = Eigen::Vector3d(100.0 * static_cast<double>(i), 0.0, 0.0);
+    keyframes[i].place = GpsPlace{Eigen::Vector3d::UnitX() * 100.0 * static_cast<double>(i), {}};
   }
   EXPECT_TRUE(is_possible(test::loop_between(truth_, 10, 10 + kLap), test::chain_of(keyframes)));
 }

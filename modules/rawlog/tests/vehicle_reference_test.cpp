@@ -59,8 +59,9 @@ TEST(VehicleReference, PlacesOfTwoLogsCompareWhateverTheirOriginsAndHeights) {
   const auto first = drive_from(49.0, 0.0, 0.0);
   const auto second = drive_from(49.0 - a_kilometre, 545.0, 1000.0);
   ASSERT_TRUE(first.place(101.5) && second.place(101.5));
-  EXPECT_NEAR((*first.place(101.5) - *first.place(100.0)).norm(), 15.0, 0.01);
-  EXPECT_LT((*first.place(101.5) - *second.place(101.5)).norm(), 1.0);
+  EXPECT_NEAR((first.place(101.5)->point - first.place(100.5)->point).norm(), 10.0, 0.01);
+  EXPECT_LT((first.place(101.5)->point - second.place(101.5)->point).norm(), 1.0);
+  EXPECT_NEAR(first.place(101.5)->course.value(), 0.0, 1e-12);
   EXPECT_TRUE(first.place(102.0));
   EXPECT_FALSE(first.place(99.9));
   EXPECT_FALSE(first.place(102.1));
@@ -70,6 +71,11 @@ TEST(VehicleReference, PlacesOfTwoLogsCompareWhateverTheirOriginsAndHeights) {
   gap.gps[2].time_s += 4.0;
   EXPECT_FALSE(gap.place(101.5)) << "six seconds";
   EXPECT_FALSE(VehicleReference().place(100.0));
+  auto creeping = first;
+  creeping.gps[1].position_enu = Eigen::Vector3d(3.0, 0.0, 0.0);
+  EXPECT_FALSE(creeping.place(100.5)->course);
+  creeping.gps[1].position_enu = Eigen::Vector3d(6.0, 0.0, 0.0);
+  EXPECT_NEAR(creeping.place(100.5)->course.value(), M_PI / 2, 1e-12);
 }
 
 TEST(VehicleReference, DoesNotBridgeALongGap) {

@@ -15,6 +15,7 @@ namespace {
 constexpr double kCoverWithin = 1.5;  // [s] how far an end of the interval may lie from the data
 constexpr double kLongestGap = 5.0;   // [s] over which nothing is interpolated
 constexpr double kStanding = 0.5;     // [m/s] below which the course of a GPS is noise
+constexpr double kTellingWay = 5.0;   // [m] between two positions, whose noise is a metre or two
 
 struct Sample {
   double time_s;
@@ -68,14 +69,24 @@ Samples unwrapped_courses(const std::vector<GpsFix>& gps) {
   return courses;
 }
 
-/// The fixes with a position around t: the last one before or at it, the first one after it.
+/// The fixes with a position around t: the last one before it, the first one at or after it; null
+/// where there is none.
 std::pair<const GpsFix*, const GpsFix*> around(const std::vector<GpsFix>& gps, double t) {
-  const auto next = std::upper_bound(gps.begin(), gps.end(), t,
-                                     [](double time, const GpsFix& f) { return time < f.time_s; });
+  const auto next = std::lower_bound(gps.begin(), gps.end(), t,
+                                     [](const GpsFix& f, double time) { return f.time_s < time; });
   const auto has_position = [](const GpsFix& fix) { return fix.position_enu.has_value(); };
   const auto after = std::find_if(next, gps.end(), has_position);
   const auto before = std::find_if(std::make_reverse_iterator(next), gps.rend(), has_position);
   return {before == gps.rend() ? nullptr : &*before, after == gps.end() ? nullptr : &*after};
+}
+
+/// [m] Earth-centred; below or above the point.
+Eigen::Vector3d on_ellipsoid(const Eigen::Vector3d& enu, const GeodeticFix& origin) {
+  const GeodeticPosition here =
+      geodetic_from_enu(enu, {origin.latitude_deg, origin.longitude_deg, origin.height});
+  mrpt::math::TPoint3D earth;
+  mrpt::topography::geodeticToGeocentric_WGS84({here.latitude_deg, here.longitude_deg, 0.0}, earth);
+  return {earth.x, earth.y, earth.z};
 }
 
 }  // namespace
@@ -107,21 +118,17 @@ std::optional<double> VehicleReference::distance(double t0, double t1) const {
   return length;
 }
 
-std::optional<Eigen::Vector3d> VehicleReference::place(double t) const {
+std::optional<EarthPlace> VehicleReference::place(double t) const {
   const auto [before, after] = around(gps, t);
-  const bool at_last = before != nullptr && before->time_s == t;
-  if (!origin || before == nullptr || (after == nullptr && !at_last)) return std::nullopt;
-  Eigen::Vector3d enu = *before->position_enu;
-  if (!at_last) {
-    const double gap = after->time_s - before->time_s;
-    if (!(gap <= kLongestGap)) return std::nullopt;
-    enu += (t - before->time_s) / gap * (*after->position_enu - enu);
-  }
-  const GeodeticPosition here =
-      geodetic_from_enu(enu, {origin->latitude_deg, origin->longitude_deg, origin->height});
-  mrpt::math::TPoint3D earth;
-  mrpt::topography::geodeticToGeocentric_WGS84({here.latitude_deg, here.longitude_deg, 0.0}, earth);
-  return Eigen::Vector3d(earth.x, earth.y, earth.z);
+  if (!origin || before == nullptr || after == nullptr) return std::nullopt;
+  const double gap = after->time_s - before->time_s;
+  if (!(gap <= kLongestGap)) return std::nullopt;
+  const Eigen::Vector3d way = *after->position_enu - *before->position_enu;
+  const double share = gap > 0.0 ? (t - before->time_s) / gap : 0.0;
+  EarthPlace place;
+  place.point = on_ellipsoid(*before->position_enu + share * way, *origin);
+  if (way.head<2>().norm() > kTellingWay) place.course = std::atan2(way.x(), way.y());
+  return place;
 }
 
 }  // namespace oneac

@@ -11,6 +11,12 @@
 
 namespace oneac {
 
+/// Where a GPS had the vehicle.
+struct GpsPlace {
+  Eigen::Vector3d point = Eigen::Vector3d::Zero();  ///< in one frame for all logs [m]
+  std::optional<double> course;  ///< of travel, in one sense from one direction [rad]; if known
+};
+
 /// A keyframe as loops need it: a value of the odometry, frontend's Keyframe without its points.
 struct LoopKeyframe {
   std::size_t id = 0;       ///< what the odometry calls it
@@ -24,9 +30,8 @@ struct LoopKeyframe {
   /// see covariance_of_steps(). Zero where nothing is known, and for the first of a log: then a
   /// part of the way begins, which only loops can join to the others.
   Eigen::Matrix<double, 6, 6> covariance = Eigen::Matrix<double, 6, 6>::Zero();
-  double scale_sigma = 0.0;  ///< relative 1σ of lengths here, shared by neighbours
-  /// Where a GPS had the vehicle, in one frame for all logs [m]; only ever refuses a loop.
-  std::optional<Eigen::Vector3d> place;
+  double scale_sigma = 0.0;       ///< relative 1σ of lengths here, shared by neighbours
+  std::optional<GpsPlace> place;  ///< only ever refuses a loop
 };
 
 /// A step of the odometry.

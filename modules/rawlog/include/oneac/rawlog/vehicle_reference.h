@@ -18,6 +18,13 @@ struct GpsFix {
   std::optional<double> course;                 ///< direction of travel, clockwise from north [rad]
 };
 
+/// Where on the earth a receiver was, and which way it went.
+struct EarthPlace {
+  /// Earth-centred, on the WGS84 ellipsoid, since receivers disagree on heights [m].
+  Eigen::Vector3d point = Eigen::Vector3d::Zero();
+  std::optional<double> course;  ///< clockwise from north [rad]; none of one that hardly moved
+};
+
 /// What the other sensors say about the vehicle's motion: a reference, not an input.
 struct VehicleReference {
   std::vector<GpsFix> gps;            ///< in time order, NaN-free
@@ -31,9 +38,8 @@ struct VehicleReference {
   [[nodiscard]] std::optional<double> heading_change(double t0, double t1) const;
   /// Speed integrated over [t0, t1] by the trapezium rule [m]; empty when speeds do not cover it.
   [[nodiscard]] std::optional<double> distance(double t0, double t1) const;
-  /// Where on the earth the receiver was, between the fixes around t, which are 5 s apart at most:
-  /// earth-centred, on the WGS84 ellipsoid, since receivers disagree on heights [m].
-  [[nodiscard]] std::optional<Eigen::Vector3d> place(double t) const;
+  /// By the positions around t, which are 5 s apart at most.
+  [[nodiscard]] std::optional<EarthPlace> place(double t) const;
 };
 
 /// What GPS and IMU say over a whole log, images passed over; of a damaged log what can be read.
