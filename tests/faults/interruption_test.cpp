@@ -31,6 +31,11 @@ class Interruption : public FaultFixture {
   [[nodiscard]] ProgramResult run_with(int signal, double share, const fs::path& folder) const {
     std::vector<std::string> command = run_command({"--quiet"});
     command[4] = folder.string();
+    return ended_by(signal, share, command);
+  }
+  /// Any command, given a signal after a share of the whole run's CPU time.
+  [[nodiscard]] ProgramResult ended_by(int signal, double share,
+                                       const std::vector<std::string>& command) const {
     RunningProgram program(command);
     while (!program.has_ended() && program.cpu_seconds() < share * whole_s_) {
       std::this_thread::sleep_for(std::chrono::milliseconds(1));
@@ -117,6 +122,29 @@ TEST_F(Interruption, AnInterruptedRunFinishesItsFiles) {
     if (!file_names(folder).empty()) expect_consistent_files(folder);
   }
   EXPECT_GT(interrupted, 0U) << "no signal met the work";
+}
+
+TEST_F(Interruption, OfSeveralLogsLeavesNoEmptyFolderAndSaysThatNothingWasSearched) {
+  const fs::path second = scratch() / "second.rawlog";
+  test::write_log(second, textured_frames(kFrames));
+  bool met_the_first = false;
+  for (int i = 0; i < 12 && !met_the_first; ++i) {
+    const double share = 0.6 + 0.15 * i;  // before it no signal is waited for
+    SCOPED_TRACE("after " + std::to_string(share));
+    const fs::path folder = scratch() / ("logs" + std::to_string(i));
+    const ProgramResult result =
+        ended_by(SIGINT, share,
+                 {ONEAC_PROGRAM, "run", log().string(), second.string(), "-o", folder.string(),
+                  "--loops", "--global-ba", "--quiet"});
+    if (result.exit_code != 1) continue;
+    const auto summary = nlohmann::json::parse(file_content(folder / "summary.json"));
+    met_the_first = summary["logs"].size() == 1;
+    if (!met_the_first) continue;
+    EXPECT_TRUE(fs::exists(folder / "1" / "summary.json"));
+    EXPECT_FALSE(fs::exists(folder / "2"));
+    EXPECT_EQ(summary["loops"]["global_ba"]["reason"], "the search for loops was not finished");
+  }
+  EXPECT_TRUE(met_the_first) << "no signal met the first log";
 }
 
 TEST_F(Interruption, AComparisonKilledAgainAndAgainGivesTheSameBytes) {

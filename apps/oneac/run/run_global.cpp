@@ -114,6 +114,10 @@ std::vector<std::optional<Eigen::Vector3d>> points_of(const DriveRecord& record,
 }  // namespace
 
 void adjust_closed_drives(const std::vector<RecordedDrive>& drives, ClosedDrives& closed) {
+  if (!closed.searched) {
+    closed.global.emplace().reason = "the search for loops was not finished";
+    return;
+  }
   const RunOptions& options = *drives.front().options;
   const Tracks tracks =
       tracks_of(drives, camera_of_loops(*drives.front().record, options).focal_px());

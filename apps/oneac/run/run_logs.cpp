@@ -20,6 +20,7 @@
 #include <filesystem>
 #include <iostream>
 #include <optional>
+#include <system_error>
 #include <utility>
 
 namespace oneac::app {
@@ -123,6 +124,14 @@ std::vector<Driven> drive_all(const std::vector<RunOptions>& logs) {
   return all;
 }
 
+/// Those of logs that nothing was driven of.
+void remove_empty_folders(const std::vector<RunOptions>& logs) {
+  for (const RunOptions& log : logs) {
+    std::error_code not_empty;
+    fs::remove(log.output, not_empty);
+  }
+}
+
 void write_all(std::vector<Driven>& driven, const std::vector<RecordedDrive>& drives,
                const ClosedDrives& closed, const std::string& folder, double wall_seconds) {
   for (std::size_t i = 0; i < driven.size(); ++i) {
@@ -163,6 +172,7 @@ void run_logs(const std::vector<std::string>& logs, const RunOptions& options) {
   const std::chrono::duration<double> wall = std::chrono::steady_clock::now() - start;
   for (Driven& log : driven) log.record.interrupted = log.record.interrupted || interrupted();
   write_all(driven, drives, closed, options.output, wall.count());
+  remove_empty_folders(each);
   for (const Driven& log : driven) {
     fail_if_empty(log.record, log.options.log);
     fail_if_incomplete(log.record);
