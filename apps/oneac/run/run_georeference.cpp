@@ -7,6 +7,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <vector>
 
@@ -26,8 +27,16 @@ std::string described(const Georeference& joined) {
          " GPS positions; they lie " + fixed_text(joined.rms, 2) + " m (rms) beside it";
 }
 
+/// A file of positions alone has all of them at 0 m, where no road is to the millimetre.
+bool tells_heights(const std::vector<PositionFix>& fixes, const GeodeticPosition& origin) {
+  constexpr double kMillimetre = 1e-3;
+  return std::any_of(fixes.begin(), fixes.end(), [&](const PositionFix& fix) {
+    return std::abs(geodetic_from_enu(fix.enu, origin).altitude_m) > kMillimetre;
+  });
+}
+
 Track track_of(const Trajectory& enu, const Georeference& joined, const GeodeticPosition& origin) {
-  Track track{"oneac", described(joined), {}};
+  Track track{"oneac", described(joined), {}, true};
   for (std::size_t i = 0; i < enu.poses.size(); ++i) {
     const GeodeticPosition place = geodetic_from_enu(enu.poses[i].translation(), origin);
     // A drive that went astray where no fix saw it may have left the earth.
@@ -52,7 +61,8 @@ void write_georeferenced(const DriveRecord& record, const GeoreferenceResult& re
   if (!result.found || !origin) return;
   const Trajectory moved = in_enu(record.vehicle_trajectory(), result.georeference);
   const GeodeticPosition from{origin->latitude_deg, origin->longitude_deg, origin->height};
-  const Track track = track_of(moved, result.georeference, from);
+  Track track = track_of(moved, result.georeference, from);
+  track.has_heights = tells_heights(fixes_of(record.source.reference), from);
   write_file_atomically(folder / "trajectory.gpx", format_gpx(track));
   write_file_atomically(folder / "trajectory.kml", format_kml(track));
   if (enu) write_file_atomically(folder / "trajectory_enu.tum", format_tum(moved));

@@ -112,6 +112,13 @@ double spread_of(const std::vector<Pair>& pairs, double scale) {
   return std::min(root_mean_square(fixes), root_mean_square(drive));
 }
 
+/// [m] A receiver's height is off by tens of metres now and then, whatever its place.
+double height_of(const std::vector<Pair>& pairs, double scale) {
+  std::vector<double> heights;
+  for (const Pair& pair : pairs) heights.push_back(pair.enu.z() - scale * pair.drive.z());
+  return upper_median(std::move(heights));
+}
+
 GeoreferenceResult none(const std::string& reason) {
   return {false, {}, reason};
 }
@@ -153,6 +160,7 @@ GeoreferenceResult georeference(const Trajectory& vehicle, const std::vector<Pos
     enu_drive = fit(pairs, weights, metric);
     weights = weights_of(residuals_of(pairs, enu_drive));
   }
+  enu_drive.t.z() = height_of(pairs, enu_drive.scale);
   return judged(pairs, enu_drive);
 }
 

@@ -81,6 +81,14 @@ TEST(Georeference, IsNotPulledAwayByAWildFix) {
   EXPECT_GT(result.georeference.yaw_sigma, 0.02);
 }
 
+TEST(Georeference, IsNotLiftedByAWildHeight) {
+  auto wild = fixes(0.0);
+  wild[20].enu.z() += 5000.0;
+  const GeoreferenceResult result = georeference(drive(), wild, true);
+  ASSERT_TRUE(result.found) << result.reason;
+  EXPECT_NEAR(result.georeference.enu_drive.t.z(), kShift.z(), 1e-6);
+}
+
 TEST(Georeference, SaysWhyThereIsNone) {
   EXPECT_NE(georeference(drive(), {}, true).reason.find("no GPS position"), std::string::npos);
   std::vector<PositionFix> late = fixes(0.0);

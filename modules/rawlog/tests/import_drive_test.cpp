@@ -492,6 +492,17 @@ TEST_F(ImportVideoGps, OfNmea) {
   const ImportReport report = import_with();
   expect_fixes(report, true);
   EXPECT_TRUE(notes(report, "2 fixes of drive.nmea are void, damaged"));
+  // RMC have no height, and the last two no GGA of their own.
+  for (const auto& observation : stored<CObservationGPS>()) {
+    if (!observation->hasMsgClass<mrpt::obs::gnss::Message_NMEA_GGA>()) continue;
+    const auto& gga = observation->getMsgByClass<mrpt::obs::gnss::Message_NMEA_GGA>();
+    EXPECT_NEAR(test::copied(gga.fields.altitude_meters), 545.4, 1e-6);
+  }
+  std::ifstream lines(options_.nmea);
+  std::string text(std::istreambuf_iterator<char>(lines), {});
+  text.erase(std::remove(text.begin(), text.end(), '\n'), text.end());  // as the Macs of old
+  write_text(options_.nmea, text);
+  EXPECT_EQ(import_with().gps, 3U);
   write_text(options_.nmea, "$GPGGA,100000.00,4807.038,N,01131.0,W,1,08,0.9,545.4,M,46.9,M,,\n");
   EXPECT_NE(complaint_of([&] { import_video(options_); }).find("no RMC sentences"),
             std::string::npos);

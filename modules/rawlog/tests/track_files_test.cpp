@@ -23,7 +23,7 @@ bool is_well_formed(const std::string& text) {
 }
 
 Track track() {
-  Track way{"drive <1> & \x01 \xc3\xa4", "SE(2), residual 0.4 m", {}};
+  Track way{"drive <1> & \x01 \xc3\xa4", "SE(2), residual 0.4 m", {}, true};
   for (int i = 0; i < 20; ++i) {
     way.points.push_back(
         {1260007200.25 + 0.1 * i, geodetic_from_enu({3.0 * i, -2.0 * i, 0.5}, kMalaga)});
@@ -54,6 +54,17 @@ TEST(TrackFiles, KmlIsALineWithLongitudesFirst) {
   ASSERT_TRUE(is_well_formed(text)) << text;
   EXPECT_NE(text.find("          -4.4771"), std::string::npos) << text;
   EXPECT_EQ(text.find('\x01'), std::string::npos);
+}
+
+TEST(TrackFiles, TellNoHeightsThatNobodyKnows) {
+  Track way = track();
+  EXPECT_NE(format_gpx(way).find("<ele>"), std::string::npos);
+  way.has_heights = false;
+  EXPECT_EQ(format_gpx(way).find("<ele>"), std::string::npos);
+  EXPECT_TRUE(is_well_formed(format_gpx(way)));
+  const std::string kml = format_kml(way);
+  const std::size_t first = kml.find("-4.4771");
+  EXPECT_EQ(kml.substr(first, kml.find('\n', first) - first), "-4.47710000,36.71540000");
 }
 
 TEST(TrackFiles, RefuseWhatIsNoPlaceOrTime) {

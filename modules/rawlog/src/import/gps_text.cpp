@@ -1,5 +1,6 @@
 #include "import/gps_text.h"
 
+#include "import/gps_order.h"
 #include "import/stamps.h"
 
 #include "oneac/base/error.h"
@@ -42,6 +43,17 @@ Words split(const std::string& line, char separator) {
   return words;
 }
 
+/// A line that ends as on Unix, Windows or the Macs of old.
+bool next_line(std::istream& stream, std::string& line) {
+  line.clear();
+  for (int c = stream.get(); c != EOF; c = stream.get()) {
+    if (c == '\r' && stream.peek() == '\n') continue;
+    if (c == '\n' || c == '\r') return true;
+    line += static_cast<char>(c);
+  }
+  return !line.empty();
+}
+
 std::string at(const std::string& file, std::size_t line) {
   return file + ": line " + std::to_string(line);
 }
@@ -55,7 +67,7 @@ class Fixes {
   void add(GpsRecord fix, std::size_t line) {
     const GeodeticPosition& p = fix.position;
     const bool on_earth = std::abs(p.latitude_deg) <= 90.0 && std::abs(p.longitude_deg) <= 180.0;
-    if (!on_earth || !std::isfinite(p.altitude_m)) {
+    if (!on_earth || std::isinf(p.altitude_m)) {
       throw InputError(at(file_.string(), line),
                        "latitude or longitude is beyond the range of degrees",
                        "give decimal degrees, north and east positive");
@@ -74,8 +86,10 @@ class Fixes {
     if (passed_over_ > 0) {
       report_.notes.push_back(std::to_string(passed_over_) + " fixes of " +
                               file_.filename().string() +
-                              " are void, damaged, at 0, 0 or not later than the one before");
+                              " are void, damaged, at 0, 0, of another day or not later than the "
+                              "one before");
     }
+    fill_heights(fixes_);
     return std::move(fixes_);
   }
 
@@ -119,7 +133,7 @@ std::optional<double> nmea_time(const std::string& time, const std::string& date
 
 /// Altitude and quality of a GGA, by its time of day.
 struct GgaFields {
-  double altitude_m = 0.0;
+  double altitude_m = unknown_height();
   int quality = 1;
   int satellites = 0;
 };
@@ -138,7 +152,7 @@ std::optional<GpsRecord> fix_of(const Words& rmc, const std::map<std::string, Gg
   if (!time || !latitude || !longitude) return std::nullopt;
   GpsRecord fix;
   fix.time_s = *time;
-  fix.position = {*latitude, *longitude, 0.0};
+  fix.position = {*latitude, *longitude, unknown_height()};
   const auto knots = finite_number(rmc[7]), course = finite_number(rmc[8]);
   if (knots && course) fix.velocity = GroundVelocity{*knots * kKnot, *course};
   const auto gga = ggas.find(rmc[1]);
@@ -154,7 +168,7 @@ void add_gga(const Words& fields, std::map<std::string, GgaFields>& ggas) {
   if (fields.size() < kFields) return;
   const auto quality = finite_number(fields[6]), satellites = finite_number(fields[7]);
   GgaFields gga;
-  gga.altitude_m = finite_number(fields[9]).value_or(0.0);
+  gga.altitude_m = finite_number(fields[9]).value_or(unknown_height());
   const auto small = [](double value) { return value >= 0.0 && value < 100.0; };
   if (quality && small(*quality)) gga.quality = static_cast<int>(*quality);
   if (satellites && small(*satellites)) gga.satellites = static_cast<int>(*satellites);
@@ -230,6 +244,7 @@ GpsRecord fix_of(const CsvRow& row, const Columns& columns) {
   fix.time_s = row.time(*columns.time);
   fix.position.latitude_deg = row.value(*columns.latitude, "latitude");
   fix.position.longitude_deg = row.value(*columns.longitude, "longitude");
+  fix.position.altitude_m = unknown_height();
   if (columns.altitude && !row.text(*columns.altitude).empty()) {
     fix.position.altitude_m = row.value(*columns.altitude, "altitude");
   }
@@ -244,31 +259,13 @@ GpsRecord fix_of(const CsvRow& row, const Columns& columns) {
 
 }  // namespace
 
-std::size_t put_in_order(std::vector<GpsRecord>& fixes) {
-  const std::size_t before = fixes.size();
-  const auto nowhere = [](const GpsRecord& fix) {
-    return fix.position.latitude_deg == 0.0 && fix.position.longitude_deg == 0.0;
-  };
-  fixes.erase(std::remove_if(fixes.begin(), fixes.end(), nowhere), fixes.end());
-  // The newest first, as some write; several tracks of one time are not mixed.
-  const bool backwards = !fixes.empty() && fixes.back().time_s < fixes.front().time_s;
-  if (backwards) std::reverse(fixes.begin(), fixes.end());
-  std::vector<GpsRecord> later;
-  later.reserve(fixes.size());
-  for (GpsRecord& fix : fixes) {
-    if (later.empty() || fix.time_s > later.back().time_s) later.push_back(std::move(fix));
-  }
-  fixes = std::move(later);
-  return before - fixes.size();
-}
-
 std::vector<GpsRecord> read_nmea(const fs::path& file, ImportReport& report) {
   std::ifstream stream = open_input(file, "check its name");
   Fixes fixes(file, report);
   std::map<std::string, GgaFields> ggas;
   std::vector<RmcLine> rmcs;
   std::size_t number_of_line = 0;
-  for (std::string line; std::getline(stream, line);) {
+  for (std::string line; next_line(stream, line);) {
     ++number_of_line;
     const auto dollar = line.find('$');  // loggers put their own stamps in front
     if (dollar == std::string::npos || line.size() < dollar + 7) continue;
@@ -306,7 +303,7 @@ void note_times_without_zone(std::size_t count, const fs::path& file, ImportRepo
 std::vector<GpsRecord> read_gps_csv(const fs::path& file, ImportReport& report) {
   std::ifstream stream = open_input(file, "check its name");
   std::string line;
-  std::getline(stream, line);
+  next_line(stream, line);
   if (line.compare(0, 3, "\xEF\xBB\xBF") == 0) line.erase(0, 3);
   const char separator = line.find(';') != std::string::npos ? ';' : ',';
   const Columns columns = columns_of(split(line, separator));
@@ -321,7 +318,7 @@ std::vector<GpsRecord> read_gps_csv(const fs::path& file, ImportReport& report) 
   }
   Fixes fixes(file, report);
   std::size_t without_zone = 0;
-  for (std::size_t number_of_line = 2; std::getline(stream, line); ++number_of_line) {
+  for (std::size_t number_of_line = 2; next_line(stream, line); ++number_of_line) {
     const Words words = split(line, separator);
     const bool blank = std::all_of(words.begin(), words.end(),
                                    [](const std::string& word) { return word.empty(); });

@@ -9,9 +9,9 @@
 
 namespace oneac {
 
-// Positions of a receiver out of a file of its own, in time order, also of one that is backwards;
-// fixes that are void, at 0, 0 (where receivers are before their first) or not later than the one
-// before are passed over and counted in the notes.
+// Positions of a receiver out of a file of its own, put in order (gps_order.h); fixes that are void
+// or left out there are counted in the notes. A height that is not told is that of the fixes
+// around.
 // @throws InputError naming file and line, what is wrong with it and the cure
 
 /// NMEA 0183: RMC sentences (date, position, speed, course) with the altitude and quality of the
@@ -28,10 +28,6 @@ namespace oneac {
 /// GPX: the points of its tracks, with their time and ele.
 [[nodiscard]] std::vector<GpsRecord> read_gpx(const std::filesystem::path& file,
                                               ImportReport& report);
-
-/// Turns fixes that go back in time about, takes those later than all before and none at 0, 0.
-/// @return how many were left out
-[[nodiscard]] std::size_t put_in_order(std::vector<GpsRecord>& fixes);
 
 /// Notes how many of a file's times name no zone, if any: receivers in a country's own time put the
 /// track hours away from the images.

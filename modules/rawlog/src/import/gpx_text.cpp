@@ -1,3 +1,4 @@
+#include "import/gps_order.h"
 #include "import/gps_text.h"
 #include "import/stamps.h"
 
@@ -51,7 +52,7 @@ class Track {
     point_.emplace();
     point_->label = "gps";
     point_->time_s = kNoTime;
-    point_->position = {*latitude, *longitude, 0.0};
+    point_->position = {*latitude, *longitude, unknown_height()};
   }
   void add_text(const char* text, std::size_t length) {
     constexpr std::size_t kLongest = 100;  // of a number or a time
@@ -59,7 +60,8 @@ class Track {
   }
   void close(const std::string& element) {
     if (!point_) return;
-    if (element == "ele") point_->position.altitude_m = finite_number(trimmed()).value_or(0.0);
+    if (element == "ele")
+      point_->position.altitude_m = finite_number(trimmed()).value_or(unknown_height());
     if (element == "time") {
       const auto time = date_stamp(trimmed());
       if (!time) return fail("time '" + trimmed() + "' is none such as 2024-05-01T10:00:00Z");
@@ -154,8 +156,10 @@ std::vector<GpsRecord> read_gpx(const fs::path& file, ImportReport& report) {
   if (passed_over > 0) {
     report.notes.push_back(
         std::to_string(passed_over) + " points of " + file.filename().string() +
-        " have no time or one that is not later than the one before, or are at 0, 0");
+        " have no time, one of another day or one that is not later than the one before, or are at "
+        "0, 0");
   }
+  fill_heights(track.points());
   return std::move(track.points());
 }
 

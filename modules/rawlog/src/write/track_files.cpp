@@ -73,9 +73,11 @@ std::string format_gpx(const Track& track) {
     const TrackPoint& point = track.points[i];
     require_place(point, i);
     text += "      <trkpt lat=\"" + fixed_text(point.place.latitude_deg, kDegreeDecimals) +
-            "\" lon=\"" + fixed_text(longitude(point.place.longitude_deg), kDegreeDecimals) +
-            "\"><ele>" + fixed_text(point.place.altitude_m, kMetreDecimals) + "</ele><time>" +
-            utc(point.time_s) + "</time></trkpt>\n";
+            "\" lon=\"" + fixed_text(longitude(point.place.longitude_deg), kDegreeDecimals) + "\">";
+    if (track.has_heights) {
+      text += "<ele>" + fixed_text(point.place.altitude_m, kMetreDecimals) + "</ele>";
+    }
+    text += "<time>" + utc(point.time_s) + "</time></trkpt>\n";
   }
   return text + "    </trkseg>\n  </trk>\n</gpx>\n";
 }
@@ -95,8 +97,9 @@ std::string format_kml(const Track& track) {
     require_place(track.points[i], i);
     const GeodeticPosition& place = track.points[i].place;
     text += "          " + fixed_text(longitude(place.longitude_deg), kDegreeDecimals) + "," +
-            fixed_text(place.latitude_deg, kDegreeDecimals) + "," +
-            fixed_text(place.altitude_m, kMetreDecimals) + "\n";
+            fixed_text(place.latitude_deg, kDegreeDecimals);
+    if (track.has_heights) text += "," + fixed_text(place.altitude_m, kMetreDecimals);
+    text += "\n";
   }
   return text +
          "        </coordinates>\n      </LineString>\n    </Placemark>\n  </Document>\n</kml>\n";

@@ -18,6 +18,7 @@ struct Track {
   std::string name;
   std::string description;  ///< one line
   std::vector<TrackPoint> points;
+  bool has_heights = true;  ///< else altitudes are not told
 };
 
 /// As GPX 1.1: a track of one segment; degrees with eight decimals (1 mm), metres above the

@@ -1,5 +1,6 @@
 #include "import/bag/bag_drive.h"
 
+#include "import/gps_order.h"
 #include "import/stamps.h"
 
 #include "oneac/base/error.h"
@@ -117,9 +118,7 @@ void BagDrive::take_fix(const BagTopic& topic, const BagMessage& message) {
   auto stamped = read_ros_nav_sat_fix(message.bytes);
   if (!stamped.content) return;
   GpsRecord& fix = *stamped.content;
-  if (!std::isfinite(fix.position.altitude_m)) {  // two-dimensional: that of the last one
-    fix.position.altitude_m = gps_.empty() ? 0.0 : gps_.back().position.altitude_m;
-  }
+  if (!std::isfinite(fix.position.altitude_m)) fix.position.altitude_m = unknown_height();
   fix.time_s = time_of(stamped.time_s, topic, message);
   fix.label = label_of(topic.name);
   gps_.push_back(fix);
@@ -249,6 +248,7 @@ ImageDrive BagDrive::drive(ImportReport& report) {
     drive.times_s = stamps_of_fps(*options_.fps, drive.images.size());
     for (double& time : drive.times_s) time += start_s;
   }
+  fill_heights(gps_);
   drive.gps = std::move(gps_);
   drive.imu = std::move(imu_);
   drive.wheels = std::move(wheels_);
