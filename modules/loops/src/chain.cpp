@@ -1,5 +1,7 @@
 #include "chain.h"
 
+#include "oneac/geometry/vehicle_limits.h"
+
 #include <Eigen/Cholesky>
 #include <Eigen/LU>
 
@@ -15,10 +17,9 @@ constexpr double kScaleMemory_m = 60.0;
 // [m², rad²] of a step that nothing is known of: anywhere, any heading.
 constexpr double kAnywhere_m2 = 1e6, kAnyHeading = 10.0;
 constexpr double kLeap_m = 1e7;  // [m] from a part to the next
-// What no car on a road does: a fast one's 0 to 100 km/h in 5.5 s, and the unlimited motorway.
-constexpr double kMostAcceleration = 5.0;  // [m/s²]
-constexpr double kFastest = 70.0;          // [m/s]
-constexpr double kSlack_m = 5.0;           // [m]
+// [m/s²] What no car keeps up: a fast one's 0 to 100 km/h in 5.5 s.
+constexpr double kMostAcceleration = 5.0;
+constexpr double kSlack_m = 5.0;  // [m]
 // Of the ways on either side: two, and twice as unsure as told.
 constexpr double kDriftSigmas = 4.0;
 // [m] Two fixes of 10 m each, as between houses or a second late, at four of their 1σ.
@@ -135,7 +136,7 @@ double Chain::fastest_between(std::size_t first, std::size_t last) const {
     const double way = (poses_[i].translation() - poses_[i - 1].translation()).norm();
     fastest = std::max(fastest, way / seconds);
   }
-  return fastest > 0.0 ? std::min(fastest, kFastest) : kFastest;
+  return fastest > 0.0 ? std::min(fastest, VehicleLimits::kFastest) : VehicleLimits::kFastest;
 }
 
 bool Chain::can_be_driven(std::size_t a, std::size_t b, const Eigen::Isometry3d& T_a_b) const {
@@ -151,7 +152,8 @@ bool Chain::can_be_driven(std::size_t a, std::size_t b, const Eigen::Isometry3d&
       fastest_between(from.last - std::min(kSpeedSteps, from.last - from.first), from.last);
   const double after = fastest_between(to.first, std::min(to.first + kSpeedSteps, to.last));
   const double usual = 0.5 * (before + after);
-  const double most = std::min(usual + 0.25 * kMostAcceleration * seconds, kFastest) * seconds;
+  const double most =
+      std::min(usual + 0.25 * kMostAcceleration * seconds, VehicleLimits::kFastest) * seconds;
   const double drift = kDriftSigmas * std::sqrt(leap.covariance.topLeftCorner<3, 3>().trace());
   return leap.T.translation().norm() < most + kSlack_m + drift;
 }

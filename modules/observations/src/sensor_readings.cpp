@@ -1,6 +1,7 @@
 #include "oneac/observations/sensor_readings.h"
 
 #include "oneac/geometry/angles.h"
+#include "oneac/geometry/vehicle_limits.h"
 #include "oneac/mrpt_compat/observations.h"
 
 #include <mrpt/math/TPoint3D.h>
@@ -24,6 +25,7 @@ constexpr double kShortestStretch = 0.8, kLongestStretch = 2.5;
 // [m] 1σ of a position against the one a second before: the receiver's slow errors are the same in
 // both; its rounding to 1e-4 minutes of arc, 0.2 m, is not.
 constexpr double kPositionNoise = 0.15;
+constexpr double kDoubtSigmas = 4.0;
 constexpr std::int8_t kRmcValid = 'A';
 
 using GGA = mrpt::obs::gnss::Message_NMEA_GGA;
@@ -57,6 +59,14 @@ double way_between(const GeodeticFix& a, const GeodeticFix& b) {
   const double turned = std::remainder(b.longitude_deg - a.longitude_deg, 360.0) * kDegree;
   return std::hypot(along * (b.latitude_deg - a.latitude_deg) * kDegree,
                     across * std::cos(a.latitude_deg * kDegree) * turned);
+}
+
+/// Of a car between two places.
+template <class Place>
+SpeedReading speed_between(const Place& a, const Place& b) {
+  const double seconds = b.time_s - a.time_s;
+  return {0.5 * (a.time_s + b.time_s), way_between(a.position, b.position) / seconds,
+          std::sqrt(2.0) * kPositionNoise / seconds};
 }
 
 /// A receiver that has no fix yet writes 0, 0, a place at sea.
@@ -127,17 +137,37 @@ std::optional<SpeedReading> SpeedOverGround::add(const GpsReading& reading) {
   return SpeedReading{time_s, *reading.speed};
 }
 
+bool SpeedOverGround::is_driven(const SpeedReading& told) const {
+  if (!(told.speed <= VehicleLimits::kFastest)) return false;
+  if (!driven_) return true;
+  const double seconds = told.time_s - driven_->time_s;
+  if (seconds > 2.0 * kLongestStretch) return true;
+  const double most = VehicleLimits::kHardestAcceleration * seconds +
+                      kDoubtSigmas * std::hypot(told.sigma, driven_->sigma);
+  return std::abs(told.speed - driven_->speed) <= most;
+}
+
 std::optional<SpeedReading> SpeedOverGround::between_positions(double time_s,
                                                                const GeodeticFix& here) {
-  const double seconds = last_ ? time_s - last_->time_s : 0.0;
-  if (last_ && seconds < kShortestStretch) return std::nullopt;
-  const auto before = std::exchange(last_, Place{time_s, here});
+  const Place now{time_s, here};
+  if (last_ && time_s - last_->time_s < kShortestStretch) return std::nullopt;
   const bool stated = std::exchange(stated_, false);
-  if (!before || stated || seconds > kLongestStretch) return std::nullopt;
-  const double speed = way_between(before->position, here) / seconds;
-  if (!(speed <= SensorLimits::kFastest)) return std::nullopt;
-  const double sigma = std::sqrt(2.0) * kPositionNoise / seconds;
-  return SpeedReading{0.5 * (before->time_s + time_s), speed, sigma};
+  const auto go_on_from = [&](std::optional<SpeedReading> told) {
+    last_ = now;
+    doubted_.reset();
+    driven_ = told;
+    return stated ? std::nullopt : told;
+  };
+  if (!last_ || time_s - last_->time_s > kLongestStretch) return go_on_from(std::nullopt);
+  const SpeedReading told = speed_between(*last_, now);
+  if (is_driven(told)) return go_on_from(told);
+  // Two places near each other and far from where the car was: that one was wrong.
+  if (doubted_ && time_s - doubted_->time_s >= kShortestStretch) {
+    const SpeedReading there = speed_between(*doubted_, now);
+    if (there.speed <= VehicleLimits::kFastest) return go_on_from(there);
+  }
+  doubted_ = now;
+  return std::nullopt;
 }
 
 }  // namespace oneac

@@ -127,6 +127,33 @@ TEST(SpeedOverGround, TakesPositionsOfAFastReceiverASecondApart) {
   EXPECT_LE(count, 5U);
 }
 
+TEST(SpeedOverGround, LeavesOutAPlaceThatNoCarGetsTo) {
+  for (const double off_deg : {0.0005, 0.005, -0.005, 1.0}) {  // 55 m, 550 m, 110 km
+    SpeedOverGround speeds;
+    for (int second = 0; second < 8; ++second) {
+      const auto gps =
+          second != 4 ? moving_gga(second) : test::gga(4.0, 36.7 + off_deg, -4.4, 30.0);
+      const auto speed = told(speeds, gps);
+      if (!speed) continue;
+      EXPECT_NEAR(speed->speed, 12.0, 0.05) << off_deg << " at " << second;
+    }
+  }
+}
+
+TEST(SpeedOverGround, GoesOnWhereTheReceiverStays) {
+  SpeedOverGround speeds;
+  std::size_t count = 0;
+  for (int second = 0; second < 10; ++second) {
+    auto reading = gps_reading(*moving_gga(second)).value();
+    if (second >= 4) reading.position->latitude_deg += 0.01;  // it was wrong before
+    const auto speed = speeds.add(reading);
+    if (!speed) continue;
+    EXPECT_NEAR(speed->speed, 12.0, 0.05) << second;
+    ++count;
+  }
+  EXPECT_EQ(count, 8U);
+}
+
 TEST(SpeedOverGround, SaysNothingAcrossAGap) {
   SpeedOverGround speeds;
   EXPECT_FALSE(told(speeds, moving_gga(0.0)));

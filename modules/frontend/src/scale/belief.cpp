@@ -2,6 +2,7 @@
 
 #include "oneac/geometry/angles.h"
 #include "oneac/geometry/angular_errors.h"
+#include "oneac/geometry/vehicle_limits.h"
 
 #include <algorithm>
 #include <cmath>
@@ -10,8 +11,6 @@
 namespace oneac {
 namespace {
 
-// [m/s] Plausible speeds of a car, 250 km/h; a length beyond is refused as metric.
-constexpr double kFastestCar = 70.0;
 // [m] 1σ of a short step that is as good as standing: what is far more than this in proportion to a
 // creep of centimetres does not make the drive less certain.
 constexpr double kSureWay = 0.01;
@@ -154,7 +153,8 @@ StepLength Scale::chosen(const std::vector<StepLength>& told, const StepInTime& 
   StepLength refused;
   for (const StepLength& length : told) {
     if (!length.metric) continue;
-    const bool slow = !(step.seconds() > 0.0) || !(length.length > kFastestCar * step.seconds());
+    const bool slow =
+        !(step.seconds() > 0.0) || !(length.length > VehicleLimits::kFastest * step.seconds());
     if (slow && (!expected || expected->allows(length.length, length.sigma_m))) {
       believed.push_back(length);
     } else {

@@ -6,6 +6,7 @@
 #include "two_view/course.h"
 
 #include "oneac/geometry/levelling.h"
+#include "oneac/geometry/vehicle_limits.h"
 
 #include <algorithm>
 #include <cmath>
@@ -13,7 +14,6 @@
 namespace oneac {
 namespace {
 
-constexpr double kFastest = 70.0;  // [m/s] 250 km/h
 // [m] where the height is not known, speeds are bounded as if it were this.
 constexpr double kUsualHeight = 1.5;
 constexpr double kLeastHeights = 0.05;  // [heights] room for the search at a standstill
@@ -37,7 +37,7 @@ double rms(const Eigen::Matrix3d& covariance, double unknown) {
 
 /// What inertia allows, in camera heights.
 void expect(const RoadTravelPrior& prior, double height, bool moves, RoadStep& step) {
-  const double fastest = std::max(kLeastHeights, kFastest * prior.seconds / height);
+  const double fastest = std::max(kLeastHeights, VehicleLimits::kFastest * prior.seconds / height);
   step.max_length = std::min(fastest, 20.0);
   const bool creeps = prior.expected &&
                       prior.expected->length + kSurely * prior.expected->sigma < kCreeping * height;

@@ -78,7 +78,7 @@ struct SpeedReading {
 
 /// Speeds over ground out of one receiver's messages: those that it states (RMC), and where an
 /// epoch has none, the way between positions (GGA) about a second apart, which holds for the middle
-/// of that second.
+/// of that second. A position that no car gets to is left out, unless the next one confirms it.
 class SpeedOverGround {
  public:
   /// @param reading  in order of time
@@ -92,9 +92,14 @@ class SpeedOverGround {
     double time_s;
     GeodeticFix position;
   };
+  /// Whether a car gets from a place to here.
+  [[nodiscard]] bool is_driven(const SpeedReading& told) const;
+
   GpsEpochs epochs_;
-  std::optional<Place> last_;  ///< position that the next is compared with
-  bool stated_ = false;        ///< a speed came since then
+  std::optional<Place> last_;           ///< position that the next is compared with
+  std::optional<Place> doubted_;        ///< one after it that no car got to
+  std::optional<SpeedReading> driven_;  ///< the last one between positions
+  bool stated_ = false;                 ///< a speed came since then
 };
 
 }  // namespace oneac
