@@ -59,6 +59,13 @@ struct CalibrateFlags {
   bool no_progress = false;
 };
 
+void require_not_the_log(const std::filesystem::path& file, const std::string& log) {
+  std::error_code missing;
+  if (!std::filesystem::equivalent(file, log, missing) || missing) return;
+  throw InputError(file.string(), "is the log, which the calibration would replace",
+                   "give -o a name such as camera.ini");
+}
+
 void run(CalibrateFlags& flags) {
   CalibrateOptions& options = flags.options;
   apply_settings(flags.parameter_files, flags.settings, options.run);
@@ -66,6 +73,7 @@ void run(CalibrateFlags& flags) {
   options.validate();
   const std::filesystem::path file(options.output);
   const std::filesystem::path folder = file.has_parent_path() ? file.parent_path() : ".";
+  require_not_the_log(file, options.run.log);
   require_writable_folder(folder.string());
   require_no_run(folder);
   require_own(height_file(file));

@@ -182,6 +182,15 @@ TEST_F(CalibrateVerb, DoesNotOverwriteTheReportOfARun) {
   EXPECT_EQ(text_of(folder("out") + "/report.html"), before);
 }
 
+TEST_F(CalibrateVerb, DoesNotReplaceItsLog) {
+  const std::string log = simulate({"--frames", "8"});
+  const std::string before = text_of(log);
+  const ProgramResult result = run_program({ONEAC_PROGRAM, "calibrate", log, "-o", log});
+  EXPECT_EQ(result.exit_code, 2);
+  EXPECT_NE(result.err.find("is the log"), std::string::npos) << result.err;
+  EXPECT_EQ(text_of(log), before);
+}
+
 TEST_F(CalibrateVerb, RunThatLearnsWritesTheCameraItUsedAndTouchesNoOther) {
   const std::string log = simulate({"--frames", "8"});
   const std::string out = folder("out"), ini = out + "/camera.ini";

@@ -1,6 +1,7 @@
 #include "feature_mask.h"
 
 #include "oneac/base/error.h"
+#include "oneac/base/mask.h"
 
 #include <opencv2/core.hpp>
 #include <opencv2/imgcodecs.hpp>
@@ -48,8 +49,11 @@ GreyImage read_picture(const std::string& path) {
   if (picture.empty()) {
     throw InputError(path, "the mask cannot be read as a picture", "give a PNG file in mask.image");
   }
-  return GreyImage(
-      ImageView{picture.data, picture.cols, picture.rows, static_cast<int>(picture.step)});
+  const ImageView view{picture.data, picture.cols, picture.rows, static_cast<int>(picture.step)};
+  if (const std::string fault = fault_of_mask(view); !fault.empty()) {
+    throw InputError(path, fault, kMaskCure);
+  }
+  return GreyImage(view);
 }
 
 }  // namespace

@@ -3,6 +3,7 @@
 #include "pixels.h"
 
 #include "oneac/base/error.h"
+#include "oneac/base/mask.h"
 #include "oneac/base/thread_clock.h"
 
 #include <mrpt/img/CImage.h>
@@ -37,9 +38,12 @@ void require_sound_pose(const CameraView& view, const std::string& where) {
   throw InputError(where, damaged_pose(view), "correct it where the observation is made");
 }
 
-/// @throws std::invalid_argument when the mask is not of the image's size
-void require_size(const ImageView& mask, const GreyImage& image, const std::string& name) {
+/// @throws std::invalid_argument when the mask is not of the image's size, or of other values
+void require_mask(const ImageView& mask, const GreyImage& image, const std::string& name) {
   const bool same = mask.width == image.width() && mask.height == image.height();
+  if (const std::string fault = fault_of_mask(mask); !fault.empty()) {
+    throw std::invalid_argument(name + ": " + fault + ": " + kMaskCure);
+  }
   if (mask.empty() || same) return;
   const auto size = [](int width, int height) {
     return std::to_string(width) + "x" + std::to_string(height);
@@ -197,7 +201,7 @@ void ObservationIntake::add_pixels(const Sight& sight, const std::string& where,
                                 const ImageView& its_mask, GreyImage& mask) {
     GreyImage stored = grey_of(*of.pixels, its, grey_range_);
     const std::string name = name_of(*of.pixels, its);
-    require_size(its_mask, stored, name);
+    require_mask(its_mask, stored, name);
     GreyImage image = reader_->rectify(std::move(stored), name);
     if (!its_mask.empty()) mask = reader_->rectify(GreyImage(its_mask), "the mask of " + name);
     return image;

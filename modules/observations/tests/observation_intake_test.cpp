@@ -94,11 +94,12 @@ TEST(ObservationIntake, TakesMasksAlongWithTheImages) {
   EXPECT_TRUE(frame_of(intake, *test::external_pair("PAIR", 1, base)).mask.empty());
 }
 
-TEST(ObservationIntake, RefusesAMaskOfAnotherSizeAndGoesOn) {
+TEST(ObservationIntake, RefusesAMaskOfAnotherSizeOrOfOnesAndGoesOn) {
   ObservationIntake intake({});
-  const GreyImage small(20, 10, 255);
+  const GreyImage small(20, 10, 255), ones(test::kWidth, test::kHeight, 1);
   const auto image = test::stored_image("CAM", 0.0, test::ramp(0));
   EXPECT_THROW(static_cast<void>(intake.take(*image, {small.view(), {}})), std::invalid_argument);
+  EXPECT_THROW(static_cast<void>(intake.take(*image, {ones.view(), {}})), std::invalid_argument);
   EXPECT_TRUE(intake.take(*image).frame);
 }
 

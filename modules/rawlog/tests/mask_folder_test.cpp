@@ -9,6 +9,8 @@
 
 #include <opencv2/imgcodecs.hpp>
 
+#include <string>
+
 namespace oneac {
 namespace {
 
@@ -122,6 +124,22 @@ TEST_F(Masks, GoWithTheirImagesThroughTheSource) {
   const std::string size = test::input_error([&] { static_cast<void>(again.load(*second)); });
   EXPECT_NE(size.find("1.png: the mask has 20x10 pixels, record 1 has 64x48"), std::string::npos)
       << size;
+}
+
+TEST_F(Masks, OfZerosAndOnesOrOfLabelsAreRefused) {
+  const GreyImage image(8, 4, 100);
+  for (const int brightest : {1, 19, 127}) {
+    cv::Mat mask(4, 8, CV_8UC1, cv::Scalar(brightest));
+    mask.row(0) = 0;
+    cv::imwrite((masks() / "0.png").string(), mask);
+    const std::string said = test::input_error(
+        [&] { static_cast<void>(read_mask(masks() / "0.png", image.view(), "image 0")); });
+    EXPECT_NE(said.find("brightest value is " + std::to_string(brightest)), std::string::npos)
+        << said;
+    EXPECT_NE(said.find("write 255"), std::string::npos) << said;
+  }
+  cv::imwrite((masks() / "0.png").string(), cv::Mat(4, 8, CV_8UC1, cv::Scalar(0)));
+  EXPECT_EQ(read_mask(masks() / "0.png", image.view(), "image 0").row(0)[0], 0);  // nothing is used
 }
 
 }  // namespace

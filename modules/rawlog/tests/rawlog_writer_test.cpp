@@ -14,6 +14,9 @@
 #include <mrpt/topography/conversions.h>
 
 #include <cmath>
+#include <fstream>
+#include <iterator>
+#include <string>
 
 namespace oneac {
 namespace {
@@ -179,6 +182,20 @@ TEST_F(RawlogWriterTest, AppearsWholeOrNotAtAll) {
     EXPECT_FALSE(std::filesystem::exists(log_));
   }
   EXPECT_TRUE(test::names_in(folder_.path()).empty());
+}
+
+TEST_F(RawlogWriterTest, ReplacesARawlogAndNothingElse) {
+  written(image_record(MountConvention::optical));
+  EXPECT_EQ(written(image_record(MountConvention::optical)).size(), 1U);
+  const std::string video = "ftypisom, and hours that nobody films again";
+  std::ofstream(log_) << video;
+  const auto said = test::complaint_of([this] { RawlogWriter writer(log_); });
+  EXPECT_NE(said.find("drive.rawlog: is there and is no rawlog"), std::string::npos) << said;
+  std::ifstream kept(log_);
+  EXPECT_EQ(std::string(std::istreambuf_iterator<char>(kept), {}), video);
+  std::ofstream(log_, std::ios::trunc).close();
+  EXPECT_EQ(written(image_record(MountConvention::optical)).size(),
+            1U);  // an empty one holds nothing
 }
 
 TEST_F(RawlogWriterTest, NamesAFolderThatCannotBeWrittenTo) {

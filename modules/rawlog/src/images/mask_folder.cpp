@@ -3,6 +3,7 @@
 #include "images/image_names.h"
 
 #include "oneac/base/error.h"
+#include "oneac/base/mask.h"
 #include "oneac/observations/image_decoding.h"
 
 #include <algorithm>
@@ -111,6 +112,9 @@ fs::path MaskFolder::mask_of(const std::string& name, std::size_t index) const {
 
 GreyImage read_mask(const fs::path& mask, const ImageView& pixels, const std::string& image) {
   GreyImage picture = decode_grey_file(mask);
+  if (const std::string fault = fault_of_mask(picture.view()); !fault.empty()) {
+    throw InputError(mask.string(), fault, kMaskCure);
+  }
   if (picture.width() == pixels.width && picture.height() == pixels.height) return picture;
   const auto size = [](int width, int height) {
     return std::to_string(width) + "x" + std::to_string(height);

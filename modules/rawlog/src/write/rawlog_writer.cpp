@@ -1,5 +1,6 @@
 #include "oneac/rawlog/rawlog_writer.h"
 
+#include "read/log_reader.h"
 #include "write/gps_message.h"
 #include "write/gzip_file_stream.h"
 #include "write/mrpt_time.h"
@@ -59,12 +60,26 @@ mrpt::poses::CPose3D sensor_pose(const Eigen::Isometry3d& T_vehicle_cam,
   return mrpt_pose(T_vehicle_sensor);
 }
 
+/// What is none may be a video, a table, or whatever else the log was to be made of.
+void require_rawlog_or_nothing(const fs::path& file) {
+  std::error_code missing;
+  const auto size = fs::file_size(file, missing);
+  if (missing || size == 0) return;
+  try {
+    const LogReader reader(file);
+  } catch (const InputError&) {
+    throw InputError(file.string(), "is there and is no rawlog, so it is not replaced",
+                     "choose another name, or remove it first");
+  }
+}
+
 /// The log, or the file that it links to.
 fs::path log_to_replace(const fs::path& log) {
   const std::string fault = fault_of_file(log);
   if (!fault.empty() && fault != "no such file") {
     throw InputError(log.string(), fault, "give the name of a file, such as drive.rawlog");
   }
+  require_rawlog_or_nothing(log);
   return replaced_file(log);
 }
 
