@@ -111,6 +111,20 @@ void move(CObservationOdometry& wheels, double ahead) {
   wheels.odometry.x(wheels.odometry.x() + ahead);
 }
 
+TEST_F(WheelsDrive, AnHourOffTheImagesIsSaidWithTheSpans) {
+  for (const double off_s : {-3600.0, 3600.0}) {
+    const ProgramResult result = run(changed([off_s](CObservationOdometry& wheels, double) {
+      const double time_s = mrpt::Clock::toDouble(wheels.timestamp);
+      wheels.timestamp = mrpt::Clock::fromDouble(time_s + off_s);
+    }));
+    const bool early = result.err.find("do not overlap the images (") != std::string::npos;
+    const bool late =
+        result.err.find("the wheels told no speed before the last image (") != std::string::npos;
+    EXPECT_TRUE(early || late) << off_s << ": " << result.err;
+    EXPECT_EQ(lengths().metric, 0U);
+  }
+}
+
 TEST_F(WheelsDrive, GivesMetresWithTrueSigmasWithoutAHeight) {
   const ProgramResult result = run(log());
   const Lengths found = lengths();

@@ -90,13 +90,36 @@ std::string text_of(const TimeSpan& span) {
   return fixed_text(span.begin_s, kSpanDecimals) + " to " + fixed_text(span.end_s, kSpanDecimals);
 }
 
+/// Empty when a sensor says something about the time of the images.
+/// @param name  "the GPS"
+/// @param does  not overlap: "does" or "do"
+std::string beside_images(const std::string& name, const std::string& does, const TimeSpan& sensor,
+                          const DriveRecord& record) {
+  if (record.frames.empty()) return "";
+  const TimeSpan images{record.frames.front().time_s, record.frames.back().time_s};
+  if (sensor.begin_s <= images.end_s && images.begin_s <= sensor.end_s) return "";
+  return name + " (" + text_of(sensor) + " s) " + does + " not overlap the images (" +
+         text_of(images) + " s) in time";
+}
+
 /// Empty without GPS and when it says something about the time of the images.
 std::string gps_beside_images(const DriveRecord& record) {
-  if (!record.gps || record.frames.empty()) return "";
-  const TimeSpan images{record.frames.front().time_s, record.frames.back().time_s};
-  if (record.gps->begin_s <= images.end_s && images.begin_s <= record.gps->end_s) return "";
-  return "the GPS (" + text_of(*record.gps) + " s) does not overlap the images (" +
-         text_of(images) + " s) in time";
+  return record.gps ? beside_images("the GPS", "does", *record.gps, record) : "";
+}
+
+std::string why_wheels_tell_nothing(const DriveRecord& record) {
+  if (record.source.wheel_readings == 0) return "the log holds no odometry of wheels";
+  const auto& told = record.wheels;
+  if (told.empty() && !record.frames.empty()) {
+    return "the wheels told no speed before the last image (" +
+           fixed_text(record.frames.back().time_s, kSpanDecimals) + " s)";
+  }
+  if (told.empty()) return "there is no image";
+  const std::string beside =
+      beside_images("the wheels", "do", {told.front().time_s, told.back().time_s}, record);
+  if (!beside.empty()) return beside;
+  return "the wheels told no speeds above walking pace that agree with the images for twenty "
+         "metres";
 }
 
 /// Why a drive has no metres.
@@ -109,12 +132,7 @@ std::string about_missing_scale(const DriveRecord& record) {
                      kSo;
   }
   if (record.scale_source == "wheels") {
-    return record.source.wheel_readings == 0
-               ? std::string("the log holds no odometry of wheels") + kSo
-               : std::string(
-                     "the wheels told no speeds above walking pace that agree with the "
-                     "images for twenty metres") +
-                     kSo;
+    return why_wheels_tell_nothing(record) + kSo;
   }
   if (record.scale_source == "stereo") {
     return std::string("the right images gave too few depths") + kSo;
