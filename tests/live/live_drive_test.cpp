@@ -82,6 +82,23 @@ TEST_F(LiveDrive, GivesThePosesOfRunInColourImagesOfTheLog) {
   }
 }
 
+TEST_F(LiveDrive, LearnsTheCameraByGyroscopeAndCourseAsRunDoes) {
+  const std::filesystem::path drive = scratch() / "bends";
+  const ProgramResult made =
+      run_program({ONEAC_PROGRAM, "simulate", "-o", drive.string(), "--frames", "400", "--seed",
+                   "3", "--width", "320", "--height", "240", "--focal", "250", "--stop", "0"});
+  ASSERT_EQ(made.exit_code, 0) << made.err;
+  mrpt::img::CImage::setImagesPathBase((drive / "Images").string());
+  FrontEndOptions options;
+  options.self_calibration.refine = "focal";
+  FrontEnd front_end(options);
+  for (const auto& observation : read_log(drive / "simulated.rawlog")) front_end.feed(observation);
+  front_end.finish();
+  const CameraBelief& belief = front_end.camera_belief();
+  EXPECT_EQ(belief.sensors, (std::vector<std::string>{"gyroscope", "GPS course"}));
+  EXPECT_NEAR(belief.focal_px, 250.0, 250.0 * 0.005);
+}
+
 TEST_F(LiveDrive, CollectsTheSettledPosesOfEverySegment) {
   FrontEnd front_end{FrontEndOptions{}};
   const auto observations = read_log(log());

@@ -171,9 +171,12 @@ std::optional<FrameResult> FrontEnd::feed(const mrpt::obs::CObservation::Ptr& ob
   if (intake.inertial) {
     const auto& rate = intake.inertial->angular_rate;
     if (rate) add_yaw_rate(intake.inertial->time_s, rate->z());
-    add_acceleration(intake.inertial->time_s, *intake.inertial->acceleration,
-                     rate ? std::optional(rate->z()) : std::nullopt);
+    if (const auto& acceleration = intake.inertial->acceleration) {
+      add_acceleration(intake.inertial->time_s, *acceleration,
+                       rate ? std::optional(rate->z()) : std::nullopt);
+    }
   }
+  if (const auto& told = intake.course) add_course(told->time_s, told->course, told->speed);
   if (const auto& told = wheels_ ? intake.wheels : intake.speed) {
     add_speed(told->time_s, told->speed, told->sigma);
   }

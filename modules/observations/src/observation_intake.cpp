@@ -113,7 +113,9 @@ Intake ObservationIntake::take_inertial(const CObservation& observation) {
   Intake intake;
   intake.inertial = imu_sample(observation);
   if (!intake.inertial) return pass(PassedOver::kUnusable);
-  if (!intake.inertial->acceleration) return pass(PassedOver::kNotNeeded);
+  if (!intake.inertial->acceleration && !intake.inertial->angular_rate) {
+    return pass(PassedOver::kNotNeeded);
+  }
   imu_ = observation.sensorLabel;
   ++counts_.accelerations;
   return intake;
@@ -128,6 +130,9 @@ Intake ObservationIntake::take_speed(const CObservation& observation) {
   gps_ = observation.sensorLabel;
   Intake intake;
   intake.speed = speeds_.add(*reading);
+  if (reading->course && reading->speed) {
+    intake.course = CourseReading{reading->time_s, *reading->course, *reading->speed};
+  }
   if (!intake.speed) return pass(PassedOver::kNotNeeded);
   ++counts_.speeds;
   return intake;

@@ -150,6 +150,25 @@ TEST(ObservationIntake, GivesASpeedTheTimeOfItsEpoch) {
   EXPECT_EQ(intake.take(*other).passed_over, PassedOver::kOtherSensor);
 }
 
+TEST(ObservationIntake, GivesTheCourseWithItsSpeedAndRatesWithoutAcceleration) {
+  ObservationIntake intake({});
+  EXPECT_FALSE(intake.take(*test::gga(1.0, 36.0, -4.0, 1.0)).course);
+  const auto course = intake.take(*test::rmc(1.2, 10.0, 90.0)).course;
+  ASSERT_TRUE(course);
+  EXPECT_NEAR(course->time_s, test::kStart + 1.2, 1e-6);
+  EXPECT_NEAR(course->course, M_PI / 2, 1e-9);
+  EXPECT_NEAR(course->speed, 5.144, 1e-3);
+  mrpt::obs::CObservationIMU gyroscope;
+  gyroscope.timestamp = mrpt::Clock::fromDouble(test::kStart);
+  for (const auto rate : {mrpt::obs::IMU_WX, mrpt::obs::IMU_WY, mrpt::obs::IMU_WZ}) {
+    gyroscope.set(rate, 0.25);
+  }
+  const auto inertial = intake.take(gyroscope).inertial;
+  ASSERT_TRUE(inertial && inertial->angular_rate);
+  EXPECT_FALSE(inertial->acceleration);
+  EXPECT_EQ(inertial->angular_rate->z(), 0.25);
+}
+
 TEST(ObservationIntake, GivesASpeedByPositionsAlone) {
   ObservationIntake intake({});
   EXPECT_EQ(intake.take(*test::gga(1.0, 36.7, -4.4, 1.0)).passed_over, PassedOver::kNotNeeded);

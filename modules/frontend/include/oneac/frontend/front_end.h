@@ -88,8 +88,7 @@ class FrontEnd : public mrpt::system::COutputLogger {
   void add_speed(double time_s, double speed_mps, double sigma_mps = SpeedReading::kDoppler);
   /// The vehicle's yaw rate [rad/s], counter-clockwise, and a course over ground [rad], clockwise
   /// from north, with the speed [m/s]: turns for front_end.calibration.refine, else not used. In
-  /// order of time; they may lie ahead of the images. feed() takes the rates of an IMU that has
-  /// accelerations, too, and no course.
+  /// order of time; they may lie ahead of the images. feed() takes those of its IMU and GPS.
   /// @throws std::invalid_argument as add_acceleration does; a course is within two full turns
   void add_yaw_rate(double time_s, double yaw_rate);
   void add_course(double time_s, double course, double speed_mps);

@@ -26,7 +26,7 @@ enum class PassedOver {
   kRepeated,     ///< an image that repeats the one before, pixel by pixel
   kUnstamped,    ///< a reading of IMU, GPS or wheels without time stamp
   kUnusable,     ///< a reading of IMU, GPS or wheels that is void or damaged
-  kNotNeeded,    ///< a sound reading without acceleration or speed: rates, a first position
+  kNotNeeded,    ///< a sound reading that tells nothing of a motion: a first position
 };
 inline constexpr std::size_t kReasons = 8;
 /// "of another sensor": completes "observation passed over: it is …" or "has …".
@@ -35,7 +35,7 @@ inline constexpr std::size_t kReasons = 8;
 /// What became of the observations so far.
 struct IntakeCounts {
   std::size_t images = 0;         ///< gave a frame
-  std::size_t accelerations = 0;  ///< readings of the IMU taken
+  std::size_t accelerations = 0;  ///< readings of the IMU taken, with rates alone, too
   std::size_t speeds = 0;         ///< readings of the GPS taken
   std::size_t wheels = 0;         ///< readings of the odometer taken
   std::array<std::size_t, kReasons> passed_over{};
@@ -45,13 +45,21 @@ struct IntakeCounts {
   }
 };
 
-/// What an observation holds for a front-end: at most one of them, or a reason for none. Of wheels
-/// most readings give nothing yet: they make stretches.
+/// A direction of travel that a receiver states.
+struct CourseReading {
+  double time_s = 0.0;  ///< [s] Unix time
+  double course = 0.0;  ///< clockwise from north [rad]
+  double speed = 0.0;   ///< over ground [m/s]
+};
+
+/// What an observation holds for a front-end: one of them, or speed and course, or a reason for
+/// none. Of wheels most readings give nothing yet: they make stretches.
 struct Intake {
   std::optional<CameraFrame> frame;
-  std::optional<ImuSample> inertial;   ///< has an acceleration
-  std::optional<SpeedReading> speed;   ///< by the GPS
-  std::optional<SpeedReading> wheels;  ///< by the odometer, of a stretch that is over
+  std::optional<ImuSample> inertial;    ///< has an acceleration or rates
+  std::optional<SpeedReading> speed;    ///< by the GPS
+  std::optional<CourseReading> course;  ///< by the GPS, where it states its speed
+  std::optional<SpeedReading> wheels;   ///< by the odometer, of a stretch that is over
   std::optional<PassedOver> passed_over;
 };
 
