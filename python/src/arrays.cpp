@@ -49,6 +49,14 @@ void require_rows(const double* values, std::size_t first, std::size_t count, st
                               "] is not finite");
 }
 
+bool hides_entries(const py::handle& value) {
+  // Held for ever.
+  static const py::handle ndarray =
+      py::module_::import("numpy").attr("ndarray").cast<py::object>().release();
+  if (py::type::handle_of(value).is(ndarray) || !py::isinstance<py::array>(value)) return false;
+  return py::cast<bool>(py::module_::import("numpy.ma").attr("is_masked")(value));
+}
+
 Shape with(Shape shape, std::initializer_list<py::ssize_t> more) {
   shape.insert(shape.end(), more);
   return shape;
@@ -56,7 +64,18 @@ Shape with(Shape shape, std::initializer_list<py::ssize_t> more) {
 
 }  // namespace
 
+void require_unmasked(const py::object& value, const char* name) {
+  bool masked = hides_entries(value);
+  if (py::isinstance<py::list>(value) || py::isinstance<py::tuple>(value)) {
+    for (const py::handle part : value) masked = masked || hides_entries(part);
+  }
+  if (!masked) return;
+  throw std::invalid_argument(std::string(name) +
+                              " has masked entries, must have none (compressed, or filled)");
+}
+
 Doubles numbers(const py::object& value, const char* name) {
+  require_unmasked(value, name);
   const auto array = py::array::ensure(value);
   if (!array) {
     PyErr_Clear();

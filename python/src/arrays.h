@@ -24,6 +24,9 @@ using Shape = std::vector<py::ssize_t>;
 [[nodiscard]] Doubles numbers(const py::object& value, const char* name);
 /// The same with as many entries along each axis as `shape` says (−1: any).
 [[nodiscard]] Doubles numbers(const py::object& value, const char* name, const Shape& shape);
+/// @throws std::invalid_argument for an array of numpy.ma, or a list of them, that hides an entry:
+///         it would count here
+void require_unmasked(const py::object& value, const char* name);
 /// "(3, 2)"; −1 is an N.
 [[nodiscard]] std::string text_of(const Shape& shape);
 [[nodiscard]] Shape shape_of(const py::array& array);

@@ -75,10 +75,21 @@ py::object to_python(const Evaluation& found) {
 py::object evaluate(const py::object& poses, const py::object& estimate,
                     const py::object& reference, const std::string& alignment) {
   const Alignment aligned = alignment_from_name(alignment);
+  if (poses.is_none() && estimate.is_none()) {
+    throw std::invalid_argument("relative_poses and trajectory are None, must be one or both");
+  }
   const auto rows = poses.is_none() ? std::vector<RelativePoseRow>{} : rows_from(poses);
-  const Trajectory truth = trajectory_from(reference);
+  const Trajectory truth = trajectory_from(reference, "reference");
   if (estimate.is_none()) return to_python(evaluate_pairs(rows, truth));
-  return to_python(evaluate_run(rows, trajectory_from(estimate), truth, aligned));
+  const Trajectory path = trajectory_from(estimate, "trajectory");
+  if (poses.is_none()) return to_python(evaluate_trajectory(path, truth, aligned));
+  Evaluation found = evaluate_run(rows, path, truth, aligned);
+  if (!found.trajectory) {
+    found.notes.push_back(rows.empty() ? "relative_poses has no rows that tell the trajectory's "
+                                         "frames: None for it compares the trajectory alone"
+                                       : "trajectory has no frame in common with reference");
+  }
+  return to_python(found);
 }
 
 }  // namespace
@@ -100,8 +111,9 @@ void bind_files(py::module_& m) {
         "Errors as `oneac eval` and the report of a run have them: oneac.Evaluation.\n\n"
         "relative_poses: RelativePoses or None; trajectory: Trajectory of the camera or None;\n"
         "reference: Trajectory of the camera, T_world_camera [m]; alignment: none, se3 or sim3.\n"
-        "With both, rows are associated by the pairs' indices or times. ValueError when they are\n"
-        "no chain or do not fit.");
+        "With both, rows are associated by the pairs' indices or times; of a trajectory alone by\n"
+        "time when both have times, else row by row when they are as many. ValueError when pairs\n"
+        "are no chain or rows do not fit, and for what is no rotation.");
 }
 
 }  // namespace oneac::python

@@ -43,6 +43,7 @@ ImageView view_of(const Pixels& grey) {
 }
 
 Pixels pixels_from(const py::object& image, bool colour, const char* name) {
+  require_unmasked(image, name);
   const auto array = py::array::ensure(image);
   const std::string wanted = colour ? "(height, width) grey or (height, width, 3) RGB, uint8"
                                     : "(height, width) grey, uint8";

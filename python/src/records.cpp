@@ -8,6 +8,8 @@
 namespace oneac::python {
 namespace {
 
+constexpr double kLastRow = 1e-6;  // [-] rounding of matrices that were multiplied or read
+
 /// R (N, 3, 3) and t (N, 3) of poses T_2_1.
 struct MotionColumns {
   explicit MotionColumns(const std::vector<RelativePoseRow>& rows)
@@ -28,11 +30,38 @@ py::list status_of(const std::vector<RelativePoseRow>& rows) {
   return status;
 }
 
-/// An attribute as an array of `count` rows. @throws std::invalid_argument
-Doubles attribute(const py::object& owner, const char* name, const Shape& shape) {
-  const Doubles array = numbers(owner.attr(name), name, shape);
-  require_finite(array, name);
-  return array;
+/// An argument and its attributes as arrays. @throws std::invalid_argument naming both
+struct Attributes {
+  [[nodiscard]] Doubles operator()(const char* attribute, const Shape& shape) const {
+    const std::string full = std::string(name) + "." + attribute;
+    const Doubles array = numbers(owner.attr(attribute), full.c_str(), shape);
+    require_finite(array, full.c_str());
+    return array;
+  }
+
+  const py::object& owner;
+  const char* name;
+};
+
+[[noreturn]] void refuse_row(const std::string& name, std::size_t row, const char* fault) {
+  throw std::invalid_argument(name + "[" + std::to_string(row) + "] is " + fault);
+}
+
+/// @throws std::invalid_argument naming the row for what a file's reader would refuse, too
+Eigen::Matrix3d rotation_in(const Eigen::Matrix3d& M, const std::string& name, std::size_t row) {
+  if (const auto R = nearest_rotation(M)) return *R;
+  refuse_row(name, row, "no rotation: R Rᵀ must be I, det R be 1");
+}
+
+Eigen::Isometry3d pose_in(const double* row_major, const std::string& name, std::size_t row) {
+  const Eigen::Map<const Eigen::Matrix<double, 4, 4, Eigen::RowMajor>> M(row_major);
+  if (!M.row(3).isApprox(Eigen::RowVector4d(0, 0, 0, 1), kLastRow)) {
+    refuse_row(name, row, "no rigid pose: its last row must be 0 0 0 1");
+  }
+  Eigen::Isometry3d T = Eigen::Isometry3d::Identity();
+  T.linear() = rotation_in(M.topLeftCorner<3, 3>(), name, row);
+  T.translation() = M.topRightCorner<3, 1>();
+  return T;
 }
 
 std::size_t index_of(double number) {
@@ -57,11 +86,13 @@ py::object to_python(const std::vector<RelativePoseRow>& rows) {
 }
 
 std::vector<RelativePoseRow> rows_from(const py::object& poses) {
-  const Doubles index1 = attribute(poses, "index1", {-1});
+  const Attributes field{poses, "relative_poses"};
+  const Doubles index1 = field("index1", {-1});
   const py::ssize_t count = index1.size();
-  const Doubles index2 = attribute(poses, "index2", {count});
-  const Doubles t1 = attribute(poses, "t1", {count}), t2 = attribute(poses, "t2", {count});
-  const Doubles R = attribute(poses, "R", {count, 3, 3}), t = attribute(poses, "t", {count, 3});
+  const Doubles index2 = field("index2", {count});
+  const Doubles t1 = field("t1", {count}), t2 = field("t2", {count});
+  const Doubles R = field("R", {count, 3, 3}), t = field("t", {count, 3});
+  require_unmasked(poses.attr("metric"), "relative_poses.metric");
   const auto metric = py::cast<std::vector<bool>>(poses.attr("metric"));
   if (metric.size() != static_cast<std::size_t>(count)) {
     throw std::invalid_argument("metric has another length than index1");
@@ -72,7 +103,7 @@ std::vector<RelativePoseRow> rows_from(const py::object& poses) {
     rows[i].index2 = index_of(index2.data()[i]);
     rows[i].t1 = t1.data()[i];
     rows[i].t2 = t2.data()[i];
-    rows[i].T_2_1 = {matrix3_at(R.data() + 9 * i),
+    rows[i].T_2_1 = {rotation_in(matrix3_at(R.data() + 9 * i), "relative_poses.R", i),
                      Eigen::Map<const Eigen::Vector3d>(t.data() + 3 * i)};
     rows[i].metric = metric[i];
     rows[i].status = "ok";
@@ -94,17 +125,17 @@ py::object to_python(const Trajectory& trajectory) {
   return result_class("Trajectory")(T, times);
 }
 
-Trajectory trajectory_from(const py::object& given) {
-  const Doubles T = attribute(given, "T", {-1, 4, 4});
+Trajectory trajectory_from(const py::object& given, const char* name) {
+  const Attributes field{given, name};
+  const Doubles T = field("T", {-1, 4, 4});
   const std::size_t count = static_cast<std::size_t>(T.shape(0));
   Trajectory trajectory;
   trajectory.poses.resize(count);
   for (std::size_t i = 0; i < count; ++i) {
-    trajectory.poses[i].matrix() =
-        Eigen::Map<const Eigen::Matrix<double, 4, 4, Eigen::RowMajor>>(T.data() + 16 * i);
+    trajectory.poses[i] = pose_in(T.data() + 16 * i, std::string(name) + ".T", i);
   }
   if (!given.attr("times").is_none()) {
-    const Doubles times = attribute(given, "times", {T.shape(0)});
+    const Doubles times = field("times", {T.shape(0)});
     trajectory.times.assign(times.data(), times.data() + times.size());
   }
   trajectory.validate();

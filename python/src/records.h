@@ -40,9 +40,11 @@ template <class Things, class Take>
 /// oneac.RelativePoses and back.
 [[nodiscard]] py::object to_python(const std::vector<RelativePoseRow>& rows);
 [[nodiscard]] std::vector<RelativePoseRow> rows_from(const py::object& relative_poses);
-/// oneac.Trajectory and back. @throws std::invalid_argument for what validate() refuses
+/// oneac.Trajectory and back.
+/// @throws std::invalid_argument naming the argument, for poses that are not rigid and for what
+///         validate() refuses
 [[nodiscard]] py::object to_python(const Trajectory& trajectory);
-[[nodiscard]] Trajectory trajectory_from(const py::object& trajectory);
+[[nodiscard]] Trajectory trajectory_from(const py::object& trajectory, const char* name);
 
 /// A copy of the pixels, (height, width) uint8.
 [[nodiscard]] py::array_t<std::uint8_t> to_numpy(const GreyImage& image);

@@ -1,4 +1,5 @@
 import csv
+import dataclasses
 import json
 
 import numpy as np
@@ -45,6 +46,75 @@ def test_errors_are_those_of_the_run(drive, result):
     assert found.trajectory.alignment == "se3"
     alone = oneac.evaluate(run.relative_poses, None, reference)
     assert alone.trajectory is None and alone.rotation_deg.mean == found.rotation_deg.mean
+
+
+def test_a_trajectory_is_compared_without_its_pairs(drive, result):
+    run = oneac.read_run(result)
+    reference = oneac.read_trajectory(drive / "poses.txt")
+    alone = oneac.evaluate(None, run.trajectory, reference).trajectory
+    with_pairs = oneac.evaluate(run.relative_poses, run.trajectory, reference).trajectory
+    assert alone.frames == 24 and alone.ape.rmse == with_pairs.ape.rmse > 0
+    times = run.trajectory.times
+    some = oneac.Trajectory(run.trajectory.T[3:9], times[3:9])
+    by_time = oneac.evaluate(None, some, oneac.Trajectory(reference.T, times), "none")
+    assert by_time.trajectory.frames == 6 and by_time.rotation_deg is None
+
+
+def test_trajectories_that_cannot_be_compared_are_an_error(result):
+    T, times = (path := oneac.read_run(result).trajectory).T, path.times
+    for given, reference, words in (
+            (None, path, "relative_poses and trajectory are None"),
+            (oneac.Trajectory(T[:5]), path, "5 poses, the reference has 24 poses: must be as many"),
+            (oneac.Trajectory(T, times + 1e3), path, "no frame in common"),
+            (oneac.Trajectory(T[:0]), oneac.Trajectory(T[:0]), "no frame in common")):
+        with pytest.raises(ValueError, match=words):
+            oneac.evaluate(None, given, reference)
+
+
+def test_a_trajectory_that_is_left_out_is_noted(result):
+    run = oneac.read_run(result)
+    elsewhen = oneac.Trajectory(run.trajectory.T, run.trajectory.times + 1e3)
+    found = oneac.evaluate(run.relative_poses, run.trajectory, elsewhen)
+    assert found.trajectory is None and "no frame in common" in found.notes[-1]
+
+
+def test_what_is_no_rotation_is_refused_with_its_row(result):
+    run = oneac.read_run(result)
+    path, pairs = run.trajectory, run.relative_poses
+    mirrored, sheared, projective = path.T.copy(), path.T.copy(), path.T.copy()
+    mirrored[7, :3, 0] *= -1
+    sheared[7, 0, 1] += 0.01
+    projective[7, 3, 3] = 2
+    for bad, row in ((path.T * 2, 0), (mirrored, 7), (sheared, 7), (projective, 7)):
+        bad = oneac.Trajectory(bad, path.times)
+        for name, *given in (("trajectory", pairs, bad, path), ("reference", pairs, path, bad),
+                             ("trajectory", None, bad, path)):
+            fault = rf"^{name}\.T\[{row}\] is no (rotation|rigid pose): .+$"
+            with pytest.raises(ValueError, match=fault):
+                oneac.evaluate(*given)
+    for R in (-pairs.R, pairs.R * 1.01):
+        with pytest.raises(ValueError, match=r"^relative_poses\.R\[0\] is no rotation: .+$"):
+            oneac.evaluate(dataclasses.replace(pairs, R=R), None, path)
+
+
+def test_rotations_may_be_rounded_as_in_files(result):
+    path = oneac.read_run(result).trajectory
+    rounded = oneac.Trajectory(path.T.round(4), path.times)
+    assert oneac.evaluate(None, rounded, path).trajectory.ape.max < 1e-3
+
+
+def test_masked_rows_are_refused(result):
+    path = oneac.read_run(result).trajectory
+    mask = np.zeros(path.T.shape, bool)
+    whole = oneac.Trajectory(np.ma.masked_array(path.T, mask), path.times)
+    assert oneac.evaluate(None, whole, path).trajectory.ape.max < 1e-9
+    mask[4] = True
+    with pytest.raises(ValueError, match="T has masked entries"):
+        oneac.evaluate(None, oneac.Trajectory(np.ma.masked_array(path.T, mask), path.times), path)
+    pairs = oneac.read_run(result).relative_poses
+    metric = np.ma.masked_array(pairs.metric, pairs.index1 == 4)
+    with pytest.raises(ValueError, match="metric has masked entries"):
+        oneac.evaluate(dataclasses.replace(pairs, metric=metric), None, path)
 
 
 def test_what_does_not_fit_is_an_error(drive, result):

@@ -163,6 +163,21 @@ def test_lists_other_types_and_orders_of_memory_will_do():
     np.testing.assert_allclose(near.t, expected.t, atol=1e-3)
 
 
+def test_masked_numbers_are_refused():
+    sample = one_sample(oneac.solver("relpose_1ac_ground"), 1)[:3]
+    expected = oneac.relpose_1ac_ground(*sample)
+    for i, name in enumerate(("x1", "x2", "A")):
+        masked = [*sample]
+        masked[i] = np.ma.masked_array(sample[i], np.zeros(sample[i].shape, bool))
+        np.testing.assert_array_equal(oneac.relpose_1ac_ground(*masked).t, expected.t)
+        masked[i].mask.flat[0] = True
+        with pytest.raises(ValueError, match=f"{name} has masked entries"):
+            oneac.relpose_1ac_ground(*masked)
+    rows = [np.ma.masked_array(part, part == part[0]) for part in sample[2]]
+    with pytest.raises(ValueError, match="A has masked entries"):
+        oneac.relpose_1ac_ground(*sample[:2], rows)
+
+
 def test_no_samples_give_no_poses():
     poses = oneac.essential_5pc(np.zeros((0, 5, 2)), np.zeros((0, 5, 2)))
     assert poses.R.shape == (0, 10, 3, 3) and poses.count.shape == (0,)

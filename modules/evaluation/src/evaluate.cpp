@@ -115,14 +115,19 @@ ProcessedFrames frames_beside(const EvaluationRequest& request, const Trajectory
                    "keep trajectory and pairs of the same run together");
 }
 
-Association associate(const EvaluationRequest& request, const Trajectory& estimate,
-                      const Trajectory& reference, const TimeAlignment& time) {
+/// What the trajectories tell by themselves; empty when they do not.
+std::optional<Association> associate(const Trajectory& estimate, const Trajectory& reference,
+                                     const TimeAlignment& time) {
   if (estimate.has_times() && reference.has_times()) {
     return match_times(estimate.times, reference, time);
   }
-  if (estimate.poses.size() == reference.poses.size()) {
-    return {match_by_row(estimate.poses.size(), reference.poses.size()), reference};
-  }
+  if (estimate.poses.size() != reference.poses.size()) return std::nullopt;
+  return Association{match_by_row(estimate.poses.size(), reference.poses.size()), reference};
+}
+
+Association associate(const EvaluationRequest& request, const Trajectory& estimate,
+                      const Trajectory& reference, const TimeAlignment& time) {
+  if (auto found = associate(estimate, reference, time)) return *std::move(found);
   return match_frames(frames_beside(request, estimate, reference), reference, time);
 }
 
@@ -262,6 +267,26 @@ Evaluation evaluate_run(const std::vector<RelativePoseRow>& rows, const Trajecto
   if (found.matches.empty()) return evaluation;
   evaluation.trajectory =
       trajectory_errors(matched_poses(estimate, found.reference, found.matches), alignment);
+  return evaluation;
+}
+
+Evaluation evaluate_trajectory(const Trajectory& estimate, const Trajectory& reference,
+                               Alignment alignment) {
+  const auto found = associate(estimate, reference, {});
+  if (!found) {
+    throw std::invalid_argument("the trajectory has " + poses_in(estimate) +
+                                ", the reference has " + poses_in(reference) +
+                                ": must be as many, or both must have times");
+  }
+  if (found->matches.empty()) {
+    throw std::invalid_argument("the trajectory has no frame in common with the reference");
+  }
+  Evaluation evaluation;
+  evaluation.estimate_frames = estimate.poses.size();
+  evaluation.reference_frames = reference.poses.size();
+  note_interpolated(found->interpolated, evaluation);
+  evaluation.trajectory =
+      trajectory_errors(matched_poses(estimate, found->reference, found->matches), alignment);
   return evaluation;
 }
 

@@ -42,16 +42,6 @@ std::array<double, N> parse_row(const TextLine& line, const std::string& file, c
   return row;
 }
 
-Eigen::Matrix3d nearest_rotation(const Eigen::Matrix3d& M, const std::string& where) {
-  const double defect = (M.transpose() * M - Eigen::Matrix3d::Identity()).cwiseAbs().maxCoeff();
-  if (!(defect < kRotationTolerance) || M.determinant() < 0.0) {
-    throw InputError(where, "columns 1-3, 5-7, 9-11 are not a rotation",
-                     "write T_world_camera as the rows r11 r12 r13 tx r21 ... tz");
-  }
-  const Eigen::JacobiSVD<Eigen::Matrix3d> svd(M, Eigen::ComputeFullU | Eigen::ComputeFullV);
-  return svd.matrixU() * svd.matrixV().transpose();
-}
-
 std::vector<TextLine> pose_lines(const std::string& text, const std::string& file) {
   auto lines = data_lines(text);
   if (lines.empty()) throw InputError(file, "has no poses", "write or copy it again");
@@ -64,12 +54,24 @@ void require_finite(const Eigen::Isometry3d& T) {
 
 }  // namespace
 
+std::optional<Eigen::Matrix3d> nearest_rotation(const Eigen::Matrix3d& M) {
+  const double defect = (M.transpose() * M - Eigen::Matrix3d::Identity()).cwiseAbs().maxCoeff();
+  if (!(defect < kRotationTolerance) || M.determinant() < 0.0) return std::nullopt;
+  const Eigen::JacobiSVD<Eigen::Matrix3d> svd(M, Eigen::ComputeFullU | Eigen::ComputeFullV);
+  return svd.matrixU() * svd.matrixV().transpose();
+}
+
 Eigen::Isometry3d internal::pose_of_matrix(const std::array<double, 12>& v,
                                            const std::string& where) {
   Eigen::Matrix3d M;
   M << v[0], v[1], v[2], v[4], v[5], v[6], v[8], v[9], v[10];
+  const auto R = nearest_rotation(M);
+  if (!R) {
+    throw InputError(where, "columns 1-3, 5-7, 9-11 are not a rotation",
+                     "write T_world_camera as the rows r11 r12 r13 tx r21 ... tz");
+  }
   Eigen::Isometry3d T = Eigen::Isometry3d::Identity();
-  T.linear() = nearest_rotation(M, where);
+  T.linear() = *R;
   T.translation() << v[3], v[7], v[11];
   return T;
 }

@@ -114,6 +114,22 @@ TEST_F(EvaluatedRun, RowsThatDoNotFitTheTrajectoryAreMisuse) {
   EXPECT_THROW((void)evaluate_run(rows_, estimate_, reference_), std::invalid_argument);
 }
 
+TEST_F(EvaluatedRun, TrajectoryAloneIsAssociatedByTimeOrRow) {
+  EXPECT_EQ(evaluate_trajectory(reference_, reference_).trajectory->frames, 60U);
+  give_times();
+  const Evaluation evaluation = evaluate_trajectory(estimate_, reference_);
+  expect_exact(evaluation);
+  EXPECT_FALSE(evaluation.pair_summary);
+}
+
+TEST_F(EvaluatedRun, TrajectoryAloneThatCannotBeAssociatedIsMisuse) {
+  EXPECT_THROW((void)evaluate_trajectory(estimate_, reference_), std::invalid_argument);
+  give_times();
+  for (double& time : reference_.times) time += 1000.0;
+  EXPECT_THROW((void)evaluate_trajectory(estimate_, reference_), std::invalid_argument);
+  EXPECT_THROW((void)evaluate_trajectory({}, {}), std::invalid_argument);
+}
+
 TEST_F(EvaluatedRun, FilesOfPairsAreEvaluatedAsPairsAlways) {
   const auto csv = file("relative_poses.csv", format_relative_poses(rows_));
   const auto poses = file("poses.txt", format_kitti(reference_));

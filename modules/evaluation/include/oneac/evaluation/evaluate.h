@@ -41,6 +41,13 @@ struct Evaluation {
                                       const Trajectory& estimate, const Trajectory& reference,
                                       Alignment alignment = Alignment::kSe3);
 
+/// Errors of a trajectory without its pairs. Rows are associated by time when both have times, else
+/// row by row when they are as many.
+/// @throws std::invalid_argument when rows cannot be told to belong together, or none do
+[[nodiscard]] Evaluation evaluate_trajectory(const Trajectory& estimate,
+                                             const Trajectory& reference,
+                                             Alignment alignment = Alignment::kSe3);
+
 /// What `oneac eval` is asked.
 struct EvaluationRequest {
   std::filesystem::path estimate;   ///< relative_poses.csv, or a KITTI or TUM trajectory

@@ -3,6 +3,7 @@
 #include <Eigen/Geometry>
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -19,6 +20,10 @@ struct Trajectory {
   ///         increase, numbers that are not finite
   void validate() const;
 };
+
+/// The rotation nearest to a matrix that is one but for what rounding to four digits does; empty
+/// for one that stretches, shears or mirrors.
+[[nodiscard]] std::optional<Eigen::Matrix3d> nearest_rotation(const Eigen::Matrix3d& M);
 
 /// Reads a KITTI file: the upper three rows of T_world_body per line, row by row, 12 numbers.
 ///
