@@ -11,7 +11,8 @@ from numpy.typing import ArrayLike
 
 from ._results import Poses
 
-__all__: list[str]
+# The names stand here: what `from ._solvers import *` brings is read from them.
+__all__ = [
 '''
 
 
@@ -28,7 +29,9 @@ def main():
     sys.path.insert(0, str(folder))
     from oneac import _oneac
 
-    text = HEAD + "".join(stub_of(solver) for solver in _oneac.solvers())
+    solvers = _oneac.solvers()
+    names = "".join(f'    "{solver.name}",\n' for solver in solvers)
+    text = HEAD + names + "]\n" + "".join(stub_of(solver) for solver in solvers)
     (folder / "oneac" / "_solvers.pyi").write_text(text, encoding="utf-8")
 
 

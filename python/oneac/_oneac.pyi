@@ -1,7 +1,7 @@
 """Types of the extension; the solvers' functions are in _solvers.pyi."""
 
 import os
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from typing import Any
 
 import numpy as np
@@ -26,6 +26,7 @@ from ._results import (
 )
 
 _Floats = NDArray[np.float64]
+_Reals = NDArray[np.floating[Any] | np.integer[Any]]
 _Pixels = NDArray[np.uint8]
 _Path = str | os.PathLike[str]
 
@@ -42,9 +43,11 @@ class Camera:
         fy: float,
         cx: float,
         cy: float,
-        distortion: list[float] = ...,
+        distortion: Sequence[float] | _Reals = ...,
         lens: str = ...,
     ) -> None: ...
+    def __eq__(self, other: object) -> bool: ...
+    def __hash__(self) -> int: ...
     @staticmethod
     def load(file: str, side: str = ...) -> Camera: ...
     @property

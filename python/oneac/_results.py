@@ -53,7 +53,7 @@ class Poses(NamedTuple):
     """(…, 3) translation, in the solver's unit"""
     n: Floats
     """(…, 3) normal of the plane, n·X = d in the first camera; means nothing without one"""
-    count: Integers
+    count: Integers  # type: ignore[assignment]  # instead of tuple's own
     """solutions per sample"""
 
 

@@ -40,13 +40,14 @@ PinholeCamera camera_of(const py::object& K, const char* name) {
 }
 
 PinholeCamera camera_from(int width, int height, double fx, double fy, double cx, double cy,
-                          const std::vector<double>& distortion, const std::string& lens) {
+                          const py::object& distortion, const std::string& lens) {
   PinholeCamera camera{width, height, fx, fy, cx, cy, {}, LensModel::plumb_bob};
-  if (distortion.size() > camera.distortion.size()) {
-    throw std::invalid_argument("distortion has " + std::to_string(distortion.size()) +
+  const Doubles given = numbers(distortion, "distortion", {-1});
+  if (static_cast<std::size_t>(given.size()) > camera.distortion.size()) {
+    throw std::invalid_argument("distortion has " + std::to_string(given.size()) +
                                 " coefficients, must have at most 8");
   }
-  std::copy(distortion.begin(), distortion.end(), camera.distortion.begin());
+  std::copy_n(given.data(), given.size(), camera.distortion.begin());
   if (lens == "kannala_brandt") {
     camera.lens = LensModel::kannala_brandt;
   } else if (lens != "plumb_bob") {
@@ -56,15 +57,43 @@ PinholeCamera camera_from(int width, int height, double fx, double fy, double cx
   return camera;
 }
 
+const char* lens_of(const PinholeCamera& c) {
+  return c.lens == LensModel::plumb_bob ? "plumb_bob" : "kannala_brandt";
+}
+
+/// All that a camera is: what it is made of again, compared by and hashed by.
+py::tuple state_of(const PinholeCamera& c) {
+  return py::make_tuple(c.width, c.height, c.fx, c.fy, c.cx, c.cy,
+                        py::tuple(py::cast(c.distortion)), lens_of(c));
+}
+
+PinholeCamera camera_of_state(const py::tuple& state) {
+  if (state.size() != 8) throw std::invalid_argument("this is no pickled oneac.Camera");
+  const auto number = [&](std::size_t i) { return py::cast<double>(state[i]); };
+  return camera_from(py::cast<int>(state[0]), py::cast<int>(state[1]), number(2), number(3),
+                     number(4), number(5), state[6], py::cast<std::string>(state[7]));
+}
+
+void bind_values(py::class_<PinholeCamera>& camera) {
+  camera
+      .def(
+          "__eq__",
+          [](const PinholeCamera& a, const PinholeCamera& b) {
+            return state_of(a).equal(state_of(b));
+          },
+          py::is_operator())
+      .def("__hash__", [](const PinholeCamera& c) { return py::hash(state_of(c)); })
+      .def(py::pickle(&state_of, &camera_of_state));
+}
+
 void bind_camera(py::module_& m) {
-  const auto lens = [](const PinholeCamera& c) {
-    return c.lens == LensModel::plumb_bob ? "plumb_bob" : "kannala_brandt";
-  };
-  py::class_<PinholeCamera>(m, "Camera",
-                            "A pinhole camera and its lens, pixel centres at integers [px].")
+  py::class_<PinholeCamera> camera(
+      m, "Camera", "A pinhole camera and its lens, pixel centres at integers [px].");
+  bind_values(camera);
+  camera
       .def(py::init(&camera_from), py::arg("width"), py::arg("height"), py::arg("fx"),
-           py::arg("fy"), py::arg("cx"), py::arg("cy"),
-           py::arg("distortion") = std::vector<double>(), py::arg("lens") = "plumb_bob",
+           py::arg("fy"), py::arg("cx"), py::arg("cy"), py::arg("distortion") = py::tuple(),
+           py::arg("lens") = "plumb_bob",
            "distortion: k1 k2 p1 p2 k3 k4 k5 k6 of plumb_bob, k1 … k4 of kannala_brandt; none:\n"
            "rectified images. ValueError naming what is out of bounds.")
       .def_static("load", &load_calibration, py::arg("file"), py::arg("side") = "",
@@ -75,7 +104,7 @@ void bind_camera(py::module_& m) {
           "K", [](const PinholeCamera& c) { return to_numpy(Eigen::MatrixXd(matrix_of(c))); })
       .def_property_readonly("focal_px", &PinholeCamera::focal_px)
       .def_readonly("distortion", &PinholeCamera::distortion)
-      .def_property_readonly("lens", lens)
+      .def_property_readonly("lens", &lens_of)
       .def("__repr__", [](const PinholeCamera& c) {
         return "<oneac.Camera " + std::to_string(c.width) + "x" + std::to_string(c.height) +
                ", f = " + std::to_string(c.focal_px()) + " px>";
