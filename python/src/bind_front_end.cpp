@@ -3,6 +3,7 @@
 #include "front_end_records.h"
 #include "options.h"
 #include "records.h"
+#include "words.h"
 
 #include "oneac/evaluation/relative_poses_io.h"
 #include "oneac/frontend/front_end.h"
@@ -22,9 +23,11 @@ namespace {
 class LiveFrontEnd {
   template <class Work>
   auto alone(Work&& work) {
-    const py::gil_scoped_release release;
-    const std::lock_guard<std::mutex> lock(mutex_);
-    return work();
+    return told_in_python(Asked::kFrontEnd, [&] {
+      const py::gil_scoped_release release;
+      const std::lock_guard<std::mutex> lock(mutex_);
+      return work();
+    });
   }
 
  public:
@@ -98,7 +101,9 @@ class LiveFrontEnd {
     return mask.empty() ? py::object(py::none()) : py::object(python::to_numpy(mask));
   }
   [[nodiscard]] std::vector<std::string> setup_faults() {
-    return alone([&] { return front_end_.setup_faults(); });
+    std::vector<std::string> faults = alone([&] { return front_end_.setup_faults(); });
+    for (std::string& fault : faults) fault = in_python(fault, Asked::kFrontEnd);
+    return faults;
   }
   [[nodiscard]] py::object tilt() {
     return python::to_python(alone([&] { return front_end_.tilt_belief(); }));

@@ -2,6 +2,7 @@
 #include "bindings.h"
 #include "frames.h"
 #include "records.h"
+#include "words.h"
 
 #include "oneac/rawlog/log_summary.h"
 #include "oneac/rawlog/rawlog_source.h"
@@ -19,22 +20,17 @@
 namespace oneac::python {
 namespace {
 
-/// A log that is being read. One reader at a time: the lock is taken without the interpreter's.
-class Rawlog {
+/// A log that is being read, once. One reader at a time: the lock is taken without the
+/// interpreter's.
+class Pass {
  public:
-  explicit Rawlog(const SourceOptions& options) : source_(options) {}
+  explicit Pass(const SourceOptions& options) : source_(options) {}
 
+  /// The next frame. @throws py::stop_iteration after the last
   std::shared_ptr<CameraFrame> next() {
-    const py::gil_scoped_release release;
-    const std::lock_guard<std::mutex> lock(mutex_);
-    const auto ticket = source_.next();
-    if (ticket) {
-      wheels_.insert(wheels_.end(), ticket->wheels.begin(), ticket->wheels.end());
-      return std::make_shared<CameraFrame>(source_.load(*ticket));
-    }
-    if (!finished_) source_.finish();
-    finished_ = true;
-    return nullptr;
+    auto frame = told_in_python(Asked::kRawlog, [this] { return read(); });
+    if (!frame) throw py::stop_iteration();
+    return frame;
   }
   [[nodiscard]] SourceReport report() {
     const std::lock_guard<std::mutex> lock(mutex_);
@@ -46,10 +42,56 @@ class Rawlog {
   }
 
  private:
+  /// Null after the last.
+  std::shared_ptr<CameraFrame> read() {
+    const py::gil_scoped_release release;
+    const std::lock_guard<std::mutex> lock(mutex_);
+    const auto ticket = source_.next();
+    if (ticket) {
+      wheels_.insert(wheels_.end(), ticket->wheels.begin(), ticket->wheels.end());
+      return std::make_shared<CameraFrame>(source_.load(*ticket));
+    }
+    if (!finished_) source_.finish();
+    finished_ = true;
+    return nullptr;
+  }
+
   std::mutex mutex_;
   RawlogSource source_;
   std::vector<SpeedReading> wheels_;  ///< that nobody has taken yet
   bool finished_ = false;
+};
+
+/// A log, and the newest pass over it. Its own members are guarded by the interpreter's lock.
+class Rawlog {
+ public:
+  explicit Rawlog(const SourceOptions& options) : options_(options), newest_(begun()) {}
+
+  /// From the first image on; the pass that opening the log began is not begun twice.
+  std::shared_ptr<Pass> iterate() {
+    if (std::exchange(untouched_, false)) return newest_;
+    newest_ = begun();
+    return newest_;
+  }
+  /// Goes on with the newest pass.
+  std::shared_ptr<CameraFrame> next() {
+    untouched_ = false;
+    return std::shared_ptr(newest_)->next();
+  }
+  [[nodiscard]] Pass& newest() { return *newest_; }
+
+ private:
+  [[nodiscard]] std::shared_ptr<Pass> begun() const {
+    return told_in_python(Asked::kRawlog, [this] {
+      const py::gil_scoped_release release;
+      options_.validate();
+      return std::make_shared<Pass>(options_);
+    });
+  }
+
+  SourceOptions options_;
+  std::shared_ptr<Pass> newest_;
+  bool untouched_ = true;  ///< nobody has read from the newest pass
 };
 
 std::unique_ptr<Rawlog> open(const std::filesystem::path& log, const std::string& camera,
@@ -79,13 +121,11 @@ std::unique_ptr<Rawlog> open(const std::filesystem::path& log, const std::string
   } else if (!calibration.is_none()) {
     options.calibration = py::cast<std::string>(py::str(calibration));
   }
-  options.validate();
-  const py::gil_scoped_release release;
   return std::make_unique<Rawlog>(options);
 }
 
 py::object report_of(Rawlog& log) {
-  const SourceReport report = log.report();
+  const SourceReport report = log.newest().report();
   return result_class("RawlogReport")(
       report.images_in_log, report.images_missing, report.first_missing, report.pairs_delivered,
       report.damage, report.first_lone, report.names_out_of_order, report.wheel_readings,
@@ -93,7 +133,7 @@ py::object report_of(Rawlog& log) {
 }
 
 py::object speeds_of(Rawlog& log) {
-  const std::vector<SpeedReading> told = log.take_wheels();
+  const std::vector<SpeedReading> told = log.newest().take_wheels();
   return result_class("Speeds")(
       column<double>(told, [](const SpeedReading& reading) { return reading.time_s; }),
       column<double>(told, [](const SpeedReading& reading) { return reading.speed; }),
@@ -178,6 +218,9 @@ void bind_frame(py::module_& m) {
 }
 
 void bind_log(py::module_& m) {
+  py::class_<Pass, std::shared_ptr<Pass>>(m, "RawlogIterator", "One pass over a Rawlog.")
+      .def("__iter__", [](py::object self) { return self; })
+      .def("__next__", &Pass::next);
   py::class_<Rawlog>(m, "Rawlog", "The images of one camera of an MRPT rawlog, in log order.")
       .def(py::init(&open), py::arg("log"), py::kw_only(), py::arg("camera") = "",
            py::arg("images_dir") = py::none(), py::arg("calibration") = py::none(),
@@ -188,14 +231,11 @@ void bind_log(py::module_& m) {
            "As the flags of `oneac run`; calibration: FILE[:SECTION] or a Camera; mount_deg: roll\n"
            "to the right, pitch up and yaw to the left [deg], instead of the log's. Streams: "
            "memory\n"
-           "does not grow with the log. InputError: where, fault, cure.")
-      .def("__iter__", [](py::object self) { return self; })
-      .def("__next__",
-           [](Rawlog& log) {
-             auto frame = log.next();
-             if (!frame) throw py::stop_iteration();
-             return frame;
-           })
+           "does not grow with the log. InputError: where, fault, cure.\n"
+           "Each iter(), so each for, begins at the first image again; next(), take_wheels() and\n"
+           "report are those of the newest pass.")
+      .def("__iter__", &Rawlog::iterate)
+      .def("__next__", &Rawlog::next)
       .def("take_wheels", &speeds_of,
            "Speeds by the log's odometer that became known since the last call, for\n"
            "FrontEnd.add_speed() with scale={\"source\": \"wheels\"}.")

@@ -1,4 +1,5 @@
 import logging
+import re
 
 import conftest
 import numpy as np
@@ -26,6 +27,34 @@ def test_a_log_gives_frames_with_stamps(drive):
     assert log.report.images_in_log == 24 and log.report.damage == ""
     every = frames_of(drive, first=2, every=5, count=3)
     assert [frame.index for frame in every] == [2, 7, 12]
+
+
+def test_a_log_is_read_anew_by_each_loop(drive):
+    log = oneac.Rawlog(drive / "simulated.rawlog", first=2)
+    for frame in log:
+        if frame.index == 5:
+            break
+    assert log.report.images_in_log < 24
+    for _ in range(2):
+        assert [frame.index for frame in log] == list(range(2, 24))
+        assert log.report.images_in_log == 24
+    assert next(log, None) is None
+
+
+def test_passes_over_a_log_do_not_disturb_each_other(drive):
+    log = oneac.Rawlog(drive / "simulated.rawlog")
+    assert [(a.index, b.index) for a, b in zip(log, log)] == [(i, i) for i in range(24)]
+    frames = iter(log)
+    assert iter(frames) is frames and next(frames).index == 0
+    assert next(log).index == 1  # of the newest pass
+    assert next(iter(log)).index == 0 and next(frames).index == 2
+    fresh = oneac.Rawlog(drive / "simulated.rawlog")
+    assert (next(fresh).index, next(fresh).index, next(iter(fresh)).index) == (0, 1, 0)
+
+
+def test_a_pass_outlives_its_log(drive):
+    frames = iter(oneac.Rawlog(drive / "simulated.rawlog", count=3))
+    assert [frame.index for frame in frames] == [0, 1, 2]
 
 
 def test_an_image_outlives_its_frame(drive):
@@ -199,6 +228,48 @@ def test_an_image_that_comes_late_gives_nothing(drive, caplog):
 def test_what_is_no_image_is_refused(image):
     with pytest.raises(ValueError, match="image .*must be"):
         oneac.FrontEnd(CAMERA).feed(image, 1.0)
+
+
+def test_an_image_with_masked_pixels_is_refused():
+    pixels = np.ma.masked_array(np.zeros((360, 480), np.uint8), False)
+    assert oneac.FrontEnd(CAMERA).feed(pixels, 1.0) is not None
+    pixels[0, 0] = np.ma.masked
+    with pytest.raises(ValueError, match="image has masked entries"):
+        oneac.FrontEnd(CAMERA).feed(pixels, 1.0)
+
+
+def told(call):
+    """The message of an InputError."""
+    with pytest.raises(oneac.InputError) as caught:
+        call()
+    return str(caught.value)
+
+
+def test_messages_name_arguments_and_no_flags(drive, tmp_path):
+    log = drive / "simulated.rawlog"
+    for options, words in (({"every": 0}, "^every=0: "),
+                           ({"undistorted_fov_deg": 5}, "^undistorted_fov_deg=5: "),
+                           ({"images_dir": tmp_path / "none"}, "log's images with images_dir$"),
+                           ({"mask_dir": tmp_path}, "masks with mask_dir$"),
+                           ({"calibration": oneac.Camera(90, 100, 99, 99, 45, 50)},
+                            r"with calibration='FILE\[:SECTION\]' or a Camera")):
+        message = told(lambda: list(oneac.Rawlog(log, **options)))
+        assert re.search(words, message) and "--" not in message, message
+    other = np.zeros((90, 100), np.uint8)
+    message = told(lambda: oneac.FrontEnd(CAMERA).feed(other, 1.0))
+    assert re.search("100x90.*480x360; give the calibration of these .* with camera$", message)
+
+
+def test_setup_faults_name_arguments_and_no_flags(drive):
+    frames = frames_of(drive)
+    start = frames[0].time_s
+    for camera, hurry, words in ((CAMERA, 10, r"the camera's height \(camera_height\)$"),
+                                 (oneac.Camera(480, 360, 20, 20, 240, 180), 1, "with camera$")):
+        front_end = oneac.FrontEnd(camera, camera_height=1.65)
+        for frame in frames:
+            front_end.feed(frame.image, start + (frame.time_s - start) / hurry)
+        assert re.search(words, front_end.setup_faults[0]), front_end.setup_faults
+        assert "--" not in front_end.setup_faults[0]
 
 
 def test_misuse_is_a_value_error_that_names_it():
