@@ -81,6 +81,7 @@ function(oneac_install_config)
   install(FILES "${PROJECT_BINARY_DIR}/oneacConfig.cmake"
                 "${PROJECT_BINARY_DIR}/oneacConfigVersion.cmake"
                 "${PROJECT_SOURCE_DIR}/cmake/FindVLFeat.cmake"
+                "${PROJECT_SOURCE_DIR}/cmake/FindLibAv.cmake"
                 "${PROJECT_SOURCE_DIR}/cmake/FindLibExif.cmake"
                 "${PROJECT_SOURCE_DIR}/cmake/FindZstd.cmake"
                 "${PROJECT_SOURCE_DIR}/cmake/OneacPlugin.cmake" DESTINATION ${folder})

@@ -18,8 +18,8 @@ set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
 # Needed by find_package(oneac), not by the program.
 string(JOIN ", " CPACK_DEBIAN_PACKAGE_SUGGESTS
   g++ cmake libeigen3-dev libopencv-dev libceres-dev libvlfeat-dev libmrpt-obs-dev
-  libmrpt-topography-dev libyaml-cpp-dev libexpat1-dev libexif-dev zlib1g-dev
-  libzstd-dev)
+  libmrpt-topography-dev libyaml-cpp-dev libexpat1-dev libexif-dev
+  libavformat-dev libavcodec-dev libswscale-dev libavutil-dev zlib1g-dev libzstd-dev)
 # Needed by `import oneac`, not by the program; of the one Python that the extension was built for.
 if(TARGET oneac_python)
   math(EXPR oneac_next_python "${Python_VERSION_MINOR} + 1")

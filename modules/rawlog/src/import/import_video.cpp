@@ -2,89 +2,21 @@
 #include "import/image_drive.h"
 #include "import/import_images.h"
 #include "import/stamps.h"
+#include "import/video_file.h"
 
 #include "oneac/base/atomic_file.h"
 #include "oneac/base/error.h"
-#include "oneac/base/input_file.h"
 #include "oneac/base/number_text.h"
 
-#include <dlfcn.h>
-
-#include <opencv2/core/utils/logger.hpp>
 #include <opencv2/imgcodecs.hpp>
-#include <opencv2/videoio.hpp>
 
 #include <cmath>
-#include <cstdarg>
 #include <utility>
 
 namespace oneac {
 namespace {
 
 namespace fs = std::filesystem;
-namespace logging = cv::utils::logging;
-
-constexpr double kMillisecond = 1e-3;
-
-/// FFmpeg and OpenCV print what they think of a file; here what is wrong is said once, by an
-/// exception. OpenCV has no switch for FFmpeg and sets its level at each opening, but not its
-/// callback.
-class SilentVideo {
- public:
-  SilentVideo() : usual_level_(logging::setLogLevel(logging::LOG_LEVEL_SILENT)) {
-    set_callback([](void*, int, const char*, va_list) {});
-  }
-  ~SilentVideo() {
-    logging::setLogLevel(usual_level_);
-    if (void* usual = ::dlsym(RTLD_DEFAULT, "av_log_default_callback")) {
-      set_callback(reinterpret_cast<Callback>(usual));
-    }
-  }
-  SilentVideo(const SilentVideo&) = delete;
-  SilentVideo& operator=(const SilentVideo&) = delete;
-
- private:
-  using Callback = void (*)(void*, int, const char*, va_list);
-
-  static void set_callback(Callback callback) {
-    using Setter = void (*)(Callback);
-    if (void* setter = ::dlsym(RTLD_DEFAULT, "av_log_set_callback")) {
-      reinterpret_cast<Setter>(setter)(callback);
-    }
-  }
-
-  logging::LogLevel usual_level_;
-};
-
-/// A video's frames, one at a time.
-class Video {
- public:
-  explicit Video(const fs::path& file) : file_(file) {
-    if (const std::string fault = fault_of_file(file); !fault.empty()) {
-      throw InputError(file.string(), fault, "give the file of a video");
-    }
-    // Only what is in the file: a name like "img_%04d.png" is no list of images here.
-    if (!capture_.open(file.string(), cv::CAP_FFMPEG)) {
-      throw InputError(file.string(), "it is no video that FFmpeg reads",
-                       "convert it, for example to MP4 with H.264");
-    }
-  }
-  [[nodiscard]] bool advance() { return capture_.grab(); }
-  /// Of the frame that advance() has reached, since the start of the video [s].
-  [[nodiscard]] double time_s() const { return kMillisecond * capture_.get(cv::CAP_PROP_POS_MSEC); }
-  /// @throws InputError for a frame that cannot be decoded
-  [[nodiscard]] cv::Mat pixels(std::size_t frame) {
-    cv::Mat image;
-    if (capture_.retrieve(image) && !image.empty()) return image;
-    throw InputError(file_.string() + ": frame " + std::to_string(frame), "it cannot be decoded",
-                     "copy the video again, or cut it with --to");
-  }
-
- private:
-  fs::path file_;
-  SilentVideo silent_;
-  cv::VideoCapture capture_;
-};
 
 void require_part(const VideoImport& options) {
   const bool sound =
@@ -105,45 +37,83 @@ class FrameWriter {
     require_writable_folder(folder_);
   }
 
+  /// What of the video is missing or damaged goes to the notes.
   /// @throws InputError when the video has no such part
-  void run(ImageDrive& drive) {
-    Video video(options_.source);
-    for (std::size_t frame = 0; video.advance(); ++frame) {
-      const double time = options_.fps ? static_cast<double>(frame) / *options_.fps
-                                       : time_of(video.time_s(), frame);
-      require_later(time, frame);
+  void run(ImageDrive& drive, ImportReport& report) {
+    VideoFile video(options_.source);
+    std::size_t frame = 0;
+    bool to_its_end = true;
+    for (; video.advance(); ++frame) {
+      const double time = time_of(video, frame);
       if (time < options_.from_s) continue;
-      if (options_.to_s && time >= *options_.to_s) break;
-      drive.images.push_back(write(video.pixels(frame), frame));
+      to_its_end = !options_.to_s || time < *options_.to_s;
+      if (!to_its_end) break;
+      drive.images.push_back(write(pixels_of(video, frame), frame));
       drive.times_s.push_back(time);
+    }
+    if (to_its_end) note_early_end(video, frame, report);
+    if (video.damaged() > 0) {
+      report.notes.push_back("FFmpeg finds damage at " + std::to_string(video.damaged()) +
+                             " of the video's frames: they and those that build on them are "
+                             "smeared or left out; copy it again");
     }
     if (drive.images.size() >= 2) return;
     throw InputError(options_.source.string(),
                      std::to_string(drive.images.size()) + " frames between --from and --to",
                      "give a part of the video with two frames at least");
   }
-  /// Frames at the end whose time had to be guessed.
-  [[nodiscard]] std::size_t paced() const { return paced_; }
 
  private:
-  /// OpenCV has no time, but zero, for the frames that the decoder still holds at the end of the
-  /// file, the last ones of every H.264 with B-frames: they follow at the pace of those before. In
-  /// an AVI it counts from what the decoder holds back at the start: from the first frame here.
-  [[nodiscard]] double time_of(double told_s, std::size_t frame) {
-    constexpr std::size_t kMostHeld = 16;  // of H.264 and H.265
-    if (frame == 0) begin_s_ = told_s;
-    if (told_s != 0.0 || frame < 2 || paced_ == kMostHeld) return told_s - begin_s_;
-    ++paced_;
+  [[noreturn]] void fail(std::size_t frame, const std::string& fault,
+                         const std::string& cure) const {
+    throw InputError(options_.source.string() + ": frame " + std::to_string(frame), fault, cure);
+  }
+
+  /// Since the first frame [s]: a file's clock may begin at any time.
+  double time_of(const VideoFile& video, std::size_t frame) {
+    if (options_.fps) return static_cast<double>(frame) / *options_.fps;
+    const std::optional<double> told = video.time_s();
+    if (frame == 0) begin_s_ = told.value_or(0.0);
+    const double time = told ? *told - begin_s_ : paced(frame);
+    if (frame > 0 && !(time > last_s_)) {
+      fail(frame, "its time is not later than the one before", "give the rate with --fps");
+    }
+    step_s_ = time - last_s_;
+    last_s_ = time;
+    return time;
+  }
+
+  /// The last frame of MPEG-4 with B-frames in an AVI has no time: files of one rate, which it
+  /// keeps.
+  double paced(std::size_t frame) {
+    if (frame < 2 || is_paced_) fail(frame, "it has no time", "give the rate with --fps");
+    is_paced_ = true;
     return last_s_ + step_s_;
   }
 
-  void require_later(double time, std::size_t frame) {
-    const bool later = frame == 0 || time > last_s_;
-    step_s_ = time - last_s_;
-    last_s_ = time;
-    if (later && std::isfinite(time)) return;
-    throw InputError(options_.source.string() + ": frame " + std::to_string(frame),
-                     "its time is not later than the one before", "give the rate with --fps");
+  cv::Mat pixels_of(VideoFile& video, std::size_t frame) {
+    cv::Mat image = video.pixels();
+    if (image.empty())
+      fail(frame, "it cannot be decoded", "copy the video again, or cut it with --to");
+    if (size_.empty()) size_ = image.size();
+    if (image.size() == size_) return image;
+    fail(frame, "it has " + size_text(image.size()) + " pixels, the first has " + size_text(size_),
+         "cut it with --from and --to");
+  }
+
+  static std::string size_text(const cv::Size& size) {
+    return std::to_string(size.width) + "x" + std::to_string(size.height);
+  }
+
+  void note_early_end(const VideoFile& video, std::size_t frames, ImportReport& report) const {
+    constexpr double kSlack_s = 1.0;  // how long the last frame is shown, many files do not say
+    if (video.missing_s() < kSlack_s) return;
+    const std::string of = video.frames_told() > frames
+                               ? " of " + std::to_string(video.frames_told()) + " frames: "
+                               : " frames: ";
+    report.notes.push_back(std::to_string(frames) + of + "the file ends " +
+                           fixed_text(video.missing_s(), 1) +
+                           " s before the time that it says, cut off or damaged");
   }
 
   [[nodiscard]] fs::path write(const cv::Mat& image, std::size_t frame) const {
@@ -162,9 +132,10 @@ class FrameWriter {
 
   const VideoImport& options_;
   fs::path folder_;
+  cv::Size size_;                       ///< of the first frame
   double begin_s_ = 0.0;                ///< of the first frame
   double last_s_ = 0.0, step_s_ = 0.0;  ///< of the frame before, and to it
-  std::size_t paced_ = 0;
+  bool is_paced_ = false;               ///< a frame had no time
 };
 
 std::vector<GpsRecord> read_gps(const VideoImport& options, ImportReport& report) {
@@ -231,15 +202,11 @@ ImportReport import_video(const VideoImport& options) {
   std::vector<GpsRecord> gps = read_gps(options, report);
   const double start_s = start_of(options, gps, report);
   FrameWriter frames(options);
-  frames.run(drive);
+  frames.run(drive, report);
   for (double& time : drive.times_s) time += start_s;
   drive.camera = given_calibration(options, drive.images.front(), report);
   report.notes.push_back(std::to_string(drive.images.size()) + " frames decoded to " +
                          drive.images.front().parent_path().string());
-  if (frames.paced() > 0) {
-    report.notes.push_back("FFmpeg gives the last " + std::to_string(frames.paced()) +
-                           " frames no time: they follow at the pace of those before");
-  }
   add_gps(std::move(gps), drive, report);
   for (fs::path& image : drive.images) image = fs::absolute(image);
   write_drive(drive, options.log, false, report);

@@ -38,10 +38,11 @@ struct VideoImport : DriveImport {
 /// the time since 1970 in s, ms, us or ns. `calibration` must be given.
 ImportReport import_image_folder(const DriveImport& options);
 
-/// The frames of a video, decoded to <log base>_Images as PNG files; times: `fps`, else those of
-/// the video's frames. `calibration` must be given. GPS of another file is written beside them,
-/// from a second before the first frame to a second after the last; without `start` the video is
-/// taken to begin with its first fix, and a note says so.
+/// The frames of a video, decoded to <log base>_Images as PNG files, turned as it says; times:
+/// `fps`, else those of the video's frames. A note counts those that are damaged or missing.
+/// `calibration` must be given. GPS of another file is written beside them, from a second before
+/// the first frame to a second after the last; without `start` the video is taken to begin with its
+/// first fix, and a note says so.
 ImportReport import_video(const VideoImport& options);
 
 /// A drive of KITTI's raw data: image_00/data with image_00/timestamps.txt (image_02 without it),
