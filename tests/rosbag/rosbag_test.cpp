@@ -356,6 +356,40 @@ TEST_F(Rosbag, ListsItsTopicsWhereItsImagesHaveToBeChosen) {
   import_well({"--image-topic", "/left/image_raw"});
 }
 
+TEST_F(Rosbag, LeavesOutAnImageWhoseStampJumps) {
+  for (const int jump_s : {100000, -100}) {
+    {
+      rosbag::Bag made(bag().string(), rosbag::bagmode::Write);
+      for (int i = 0; i < kFrames; ++i) {
+        sensor_msgs::Image message = image_message(grey(i), "mono8", i);
+        if (i == 4) message.header.stamp += ros::Duration(jump_s, 0);
+        made.write("/cam/image_raw", stamp(i), message);
+        made.write("/cam/camera_info", stamp(i), info_message(i));
+      }
+    }
+    const std::string notes = import_well();
+    const std::string off = jump_s > 0 ? "100000 s after" : "100 s before";
+    EXPECT_NE(notes.find("1 image of /cam/image_raw is " + off +
+                         " its neighbours (message 5), and left out"),
+              std::string::npos)
+        << notes;
+    EXPECT_NE(info().find("7 present"), std::string::npos) << info();
+  }
+}
+
+TEST_F(Rosbag, SortsImagesThatCameInAnotherOrder) {
+  {
+    rosbag::Bag made(bag().string(), rosbag::bagmode::Write);
+    for (int i = 0; i < kFrames; ++i) {
+      const int other = i ^ 1;  // by twos
+      made.write("/cam/image_raw", stamp(i), image_message(grey(other), "mono8", other));
+      made.write("/cam/camera_info", stamp(i), info_message(i));
+    }
+  }
+  EXPECT_EQ(import_well().find("left out"), std::string::npos);
+  expect_same(poses_of(rawlog()), expected(), "another order");
+}
+
 TEST_F(Rosbag, TakesItsRateFromTheFlag) {
   write_drive();
   import_well({"--fps", "20"});

@@ -1,5 +1,6 @@
 #include "import/bag/bag_drive.h"
 
+#include "import/bag/stray_stamps.h"
 #include "import/gps_order.h"
 #include "import/stamps.h"
 
@@ -89,6 +90,12 @@ void BagDrive::require_size(const std::string& topic, const RosImage& image) {
                    std::to_string(first->second.second)};
 }
 
+BagDrive::BagImage BagDrive::image_of(double header_s, fs::path file, const BagTopic& topic,
+                                      const BagMessage& message) {
+  return {time_of(header_s, topic, message), std::move(file),
+          kNanosecond_s * static_cast<double>(message.received_ns), message.number};
+}
+
 void BagDrive::take_image(const BagTopic& topic, const BagMessage& message,
                           const std::string& prefix, std::vector<BagImage>& images) {
   const std::string name = prefix + numbered(message.number);
@@ -96,11 +103,11 @@ void BagDrive::take_image(const BagTopic& topic, const BagMessage& message,
     const Stamped<RosImage> image = read_ros_image(message.bytes);
     fs::path file = files_.write(image.content, name);  // says first what is no image at all
     require_size(topic.name, image.content);
-    images.push_back({time_of(image.time_s, topic, message), std::move(file)});
+    images.push_back(image_of(image.time_s, std::move(file), topic, message));
   } else {
     const Stamped<RosCompressedImage> image = read_ros_compressed_image(message.bytes);
     fs::path file = files_.write(image.content, name);
-    images.push_back({time_of(image.time_s, topic, message), std::move(file)});
+    images.push_back(image_of(image.time_s, std::move(file), topic, message));
   }
 }
 
@@ -128,7 +135,29 @@ bool BagDrive::is_complete() const {
   return left_.size() > 1 && (info_ || !options_.calibration.empty());
 }
 
+/// Sorted by its time, such an image would be one of another place.
+void BagDrive::leave_strays_out(const std::string& topic, std::vector<BagImage>& images,
+                                ImportReport& report) {
+  std::vector<MessageTime> times;
+  for (const BagImage& image : images) times.push_back({image.time_s, image.received_s});
+  const std::vector<StrayStamp> strays = stray_stamps(times);
+  if (strays.empty()) return;
+  const StrayStamp& first = strays.front();
+  const bool one = strays.size() == 1;
+  report.notes.push_back(
+      std::to_string(strays.size()) + (one ? " image of " : " images of ") + topic +
+      (one ? " is " : " are far off their neighbours' times, the first ") +
+      fixed_text(std::abs(first.off_s), 0) + (first.off_s > 0.0 ? " s after" : " s before") +
+      (one ? " its neighbours" : "") + " (message " + std::to_string(images[first.place].number) +
+      "), and left out");
+  for (auto stray = strays.rbegin(); stray != strays.rend(); ++stray) {
+    images.erase(images.begin() + static_cast<std::ptrdiff_t>(stray->place));
+  }
+}
+
 void BagDrive::put_images(ImageDrive& drive, ImportReport& report) {
+  leave_strays_out(choice_.images, left_, report);
+  leave_strays_out(choice_.right, right_, report);
   sort_by_time(left_);
   sort_by_time(right_);
   std::size_t doubled = 0;

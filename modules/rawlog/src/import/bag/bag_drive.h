@@ -36,6 +36,8 @@ class BagDrive {
   struct BagImage {
     double time_s;
     std::filesystem::path file;
+    double received_s;
+    std::size_t number;  ///< of its topic's messages
   };
   struct BagCameraInfo {
     RosCameraInfo info;
@@ -52,6 +54,10 @@ class BagDrive {
   [[nodiscard]] double time_of(double header_s, const BagTopic& topic, const BagMessage& message);
   [[nodiscard]] std::string where(const BagTopic& topic, const BagMessage& message) const;
 
+  [[nodiscard]] BagImage image_of(double header_s, std::filesystem::path file,
+                                  const BagTopic& topic, const BagMessage& message);
+  static void leave_strays_out(const std::string& topic, std::vector<BagImage>& images,
+                               ImportReport& report);
   void put_images(ImageDrive& drive, ImportReport& report);
   void put_camera(ImageDrive& drive, ImportReport& report) const;
   void put_right(ImageDrive& drive, ImportReport& report) const;
