@@ -188,6 +188,7 @@ TEST_F(RosbagFaults, OfATruncatedOrUnfinishedBagAreToldInOneLine) {
   const std::string whole = read_file(bag());
   write_text(bag(), whole.substr(0, whole.size() / 2));
   expect_refused("is damaged");
+  expect_refused("ROS's `rosbag reindex`");
   std::string unfinished = whole;  // as while it is recorded: the place of the index is not known
   const std::size_t place = unfinished.find("index_pos=") + 10;
   std::fill_n(unfinished.begin() + static_cast<std::ptrdiff_t>(place), 8, '\0');
@@ -195,6 +196,8 @@ TEST_F(RosbagFaults, OfATruncatedOrUnfinishedBagAreToldInOneLine) {
   expect_refused("has no index, as when its recording was cut off");
   write_text(bag(), whole.substr(0, 13));
   expect_refused("is damaged");
+  write_text(bag(), "#ROSBAG V1.2\n");
+  expect_refused("is a bag of a format before 2.0; bring it to 2.0 with ROS's `rosbag reindex`");
   write_text(bag(), "");
   expect_refused("is empty");
 }

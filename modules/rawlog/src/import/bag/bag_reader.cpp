@@ -20,7 +20,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char* kCopyAgain = "copy the bag again, or mend it with ROS's `rosbag fix`";
+constexpr const char* kCopyAgain =
+    "copy the bag again, or take what is left of it with ROS's `rosbag reindex`";
 
 bool is_of_ros2(const fs::path& bag, const std::string& begin) {
   std::error_code ignored;
@@ -85,7 +86,7 @@ void require_bag(const fs::path& bag) {
   if (begin.rfind("#ROSBAG V2.", 0) == 0) return;
   if (begin.rfind("#ROSBAG V", 0) == 0 || begin.rfind("#ROSRECORD", 0) == 0) {
     throw InputError(bag.string(), "is a bag of a format before 2.0",
-                     "bring it to 2.0 with ROS's `rosbag fix`");
+                     "bring it to 2.0 with ROS's `rosbag reindex`");
   }
   throw InputError(bag.string(), begin.empty() ? "is empty" : "is no bag of ROS",
                    "give the .bag file of a drive");
