@@ -181,6 +181,18 @@ TEST_F(RosbagFaults, OfAPairAreNamed) {
   expect_refused("is -0.54 m to the right of the left one", rect);
   write_pair("image_rect", 0.54, 5);
   expect_refused("no image of it has the time of a left one", rect);
+  {
+    rosbag::Bag made(bag().string(), rosbag::bagmode::Write);
+    for (int i = 0; i < 3; ++i) {
+      made.write("/l/image_rect", stamp(i), image_message(grey(i), "mono8", i));
+      made.write("/r/image_rect", stamp(i), image_message(grey(i), "mono8", i));
+      sensor_msgs::CameraInfo right = info_message(i, 0.54);
+      right.P[0] = right.P[5] = 300;
+      made.write("/l/camera_info", stamp(i), info_message(i));
+      made.write("/r/camera_info", stamp(i), right);
+    }
+  }
+  expect_refused("P of its CameraInfo has another f, cx or cy", rect);
 }
 
 TEST_F(RosbagFaults, OfATruncatedOrUnfinishedBagAreToldInOneLine) {

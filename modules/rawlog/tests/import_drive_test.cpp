@@ -422,6 +422,36 @@ TEST_F(ImportKittiStereo, LeavesRightImagesOutWhereNoBaselineIs) {
   EXPECT_EQ(stored<CObservationImage>().size(), 2U);
 }
 
+TEST_F(ImportKittiStereo, LeavesOutRightImagesOfAnotherCamera) {
+  for (const auto& [P1, fault] :
+       std::map<std::string, std::string>{{"60 0 32 -32 0 50 24 0 0 0 1 0", "fx 60, not 50"},
+                                          {"50 0 32 -27 0 60 24 0 0 0 1 0", "fy 60, not 50"},
+                                          {"50 0 30 -27 0 50 24 0 0 0 1 0", "cx 30, not 32"},
+                                          {"50 0 32 -27 0 50 20 0 0 0 1 0", "cy 20, not 24"}}) {
+    make_sequence("P1: " + P1 + "\n");
+    EXPECT_TRUE(
+        notes(import_kitti(kitti_), "P1 is no camera of a rectified pair with P0: " + fault));
+    EXPECT_EQ(stored<CObservationImage>().size(), 2U);
+  }
+}
+
+TEST_F(ImportKittiStereo, TakesTheProjectionsOfTheGivenCalibration) {
+  make_sequence("");
+  const fs::path given = folder_.path() / "given.txt";
+  const std::string P0 = "P0: 50 0 32 0 0 50 24 0 0 0 1 0\n";
+  write_text(given, P0 + "P1: 50 0 32 -27 0 50 24 0 0 0 1 0\nP2: 50 0 32 3 0 50 24 0 0 0 1 0\n");
+  for (const char* section : {"", ":P0"}) {
+    kitti_.calibration = given.string() + section;
+    EXPECT_EQ(import_kitti(kitti_).images, 4U) << section;
+    EXPECT_NEAR(stored<CObservationStereoImages>().at(0)->rightCameraPose.x(), 0.54, 1e-9);
+  }
+  kitti_.calibration = given.string() + ":P2";
+  EXPECT_TRUE(notes(import_kitti(kitti_), "image_1 is left out: the calibration is P2"));
+  kitti_.calibration = options_.calibration;
+  EXPECT_TRUE(notes(import_kitti(kitti_), "image_1 is left out: cameras.txt has no P1"));
+  EXPECT_EQ(stored<CObservationImage>().size(), 2U);
+}
+
 class ImportVideo : public ImportDrive {
  protected:
   /// Lossless, with a grey of its own in each frame.

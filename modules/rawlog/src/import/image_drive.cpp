@@ -1,20 +1,14 @@
 #include "import/image_drive.h"
 
-#include "calibration/calibration_numbers.h"
 #include "import/import_images.h"
 #include "import/stamps.h"
 #include "import/timed_record.h"
-#include "read/calibration_file.h"
 
 #include "oneac/base/error.h"
 #include "oneac/base/number_text.h"
 #include "oneac/geometry/camera_height.h"
 #include "oneac/rawlog/calibration.h"
 #include "oneac/rawlog/rawlog_writer.h"
-
-#include <algorithm>
-#include <cmath>
-#include <sstream>
 
 namespace oneac {
 namespace {
@@ -80,24 +74,6 @@ class DriveWriter {
   ImageReferences references_;
   std::size_t rights_ = 0;
 };
-
-/// fx and tx = -fx · (place of the camera) of a 3×4 projection.
-struct ProjectionRow {
-  double fx, tx;
-};
-
-std::optional<ProjectionRow> projection_row(const CalibrationFile& file, const std::string& name) {
-  const auto section = file.sections.find(name);
-  if (section == file.sections.end() || section->second.count(kKittiKey) == 0) return std::nullopt;
-  std::istringstream stream(section->second.at(kKittiKey));
-  std::vector<std::string> words;
-  for (std::string word; stream >> word;) words.push_back(word);
-  const CalibrationPlace place(file.path, "section [" + name + "]");
-  const std::vector<double> P = place.numbers(name, words);
-  constexpr std::size_t kEntries = 12;
-  if (P.size() != kEntries || !(P[0] > 0.0)) return std::nullopt;
-  return ProjectionRow{P[0], P[3]};
-}
 
 }  // namespace
 
@@ -181,43 +157,6 @@ std::vector<double> stamps_of_fps(double fps, std::size_t images) {
 bool is_baseline(double baseline_m) {
   constexpr double kShortest_m = 0.05, kLongest_m = 3.0;  // a vehicle is no wider
   return baseline_m >= kShortest_m && baseline_m <= kLongest_m;
-}
-
-std::optional<RightImages> kitti_right_images(const std::vector<fs::path>& left,
-                                              const fs::path& folder, const fs::path& calibration,
-                                              const std::string& left_projection,
-                                              const std::string& right_projection,
-                                              ImportReport& report) {
-  std::error_code ignored;
-  if (!fs::is_directory(folder, ignored)) return std::nullopt;
-  const std::string name = folder.filename().string();
-  const CalibrationFile file = read_calibration_file(calibration);
-  const auto P0 = projection_row(file, left_projection),
-             P1 = projection_row(file, right_projection);
-  const auto leave_out = [&](const std::string& why) {
-    report.notes.push_back(folder.string() + " is left out: " + why);
-    return std::nullopt;
-  };
-  if (!P0 || !P1) {
-    return leave_out(calibration.filename().string() + " has no " + right_projection);
-  }
-  RightImages right;
-  right.baseline_m = P0->tx / P0->fx - P1->tx / P1->fx;
-  if (!is_baseline(right.baseline_m)) {
-    return leave_out(right_projection + " is " + exact_text(right.baseline_m) +
-                     " m to the right of " + left_projection);
-  }
-  std::size_t there = 0;
-  for (const fs::path& image : left) {
-    const fs::path other = folder / image.filename();
-    const bool exists = fs::is_regular_file(other, ignored);
-    right.images.push_back(exists ? other : fs::path());
-    there += exists ? 1U : 0U;
-  }
-  if (there == 0) return leave_out("no image in it has the name of a left one");
-  report.notes.push_back(std::to_string(there) + " right images of " + std::to_string(left.size()) +
-                         ", " + fixed_text(right.baseline_m, 3) + " m beside the left ones");
-  return right;
 }
 
 }  // namespace oneac

@@ -79,4 +79,11 @@ void note_order(const std::vector<std::filesystem::path>& images, ImportReport& 
     const std::filesystem::path& calibration, const std::string& left_projection,
     const std::string& right_projection, ImportReport& report);
 
+/// The same by the file of --calibration, where that is one of KITTI's.
+/// @param given  FILE[:SECTION]
+[[nodiscard]] std::optional<RightImages> given_right_images(
+    const std::vector<std::filesystem::path>& left, const std::filesystem::path& folder,
+    const std::string& given, const std::string& left_projection,
+    const std::string& right_projection, ImportReport& report);
+
 }  // namespace oneac

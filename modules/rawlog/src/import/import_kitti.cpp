@@ -75,12 +75,17 @@ PinholeCamera find_calibration(const fs::path& source, const Sequence& sequence)
 }
 
 /// image_1 beside image_0, image_3 beside image_2.
-std::optional<RightImages> find_right(const fs::path& source, const Sequence& sequence,
+std::optional<RightImages> find_right(const KittiImport& options, const Sequence& sequence,
                                       ImportReport& report) {
   const bool grey = sequence.label == "image_0", colour = sequence.label == "image_2";
   if (!grey && !colour) return std::nullopt;
-  return kitti_right_images(sequence.images, source / (grey ? "image_1" : "image_3"),
-                            source / "calib.txt", grey ? "P0" : "P2", grey ? "P1" : "P3", report);
+  const fs::path folder = options.source / (grey ? "image_1" : "image_3");
+  const std::string left = grey ? "P0" : "P2", right = grey ? "P1" : "P3";
+  if (!options.calibration.empty()) {
+    return given_right_images(sequence.images, folder, options.calibration, left, right, report);
+  }
+  return kitti_right_images(sequence.images, folder, options.source / "calib.txt", left, right,
+                            report);
 }
 
 std::vector<double> find_times(const fs::path& source, const Sequence& sequence,
@@ -189,7 +194,7 @@ ImportReport import_kitti(const KittiImport& options) {
   note_order(sequence.images, report);
   drive.times_s = options.fps ? stamps_of_fps(*options.fps, sequence.images.size())
                               : find_times(options.source, sequence, report);
-  if (options.calibration.empty()) drive.right = find_right(options.source, sequence, report);
+  drive.right = find_right(options, sequence, report);
   require_writable_folder(options.log.has_parent_path() ? options.log.parent_path() : ".");
   copy_poses(options.source, sequence, report);  // poses that are none leave no log
   write_drive(drive, options.log, options.copy_images, report);

@@ -161,10 +161,14 @@ ImportReport import_kitti_raw(const DriveImport& options) {
   drive.times_s = times_of(options, options.source / pair.left, drive.images);
   drive.T_vehicle_cam = mount_at(options.mount, height_of(options, report));
   drive.convention = options.convention;
-  if (!given && !drive.camera.is_distorted()) {
-    drive.right = kitti_right_images(drive.images, options.source / pair.right / "data", file,
-                                     std::string("P_rect_") + pair.left_id,
-                                     std::string("P_rect_") + pair.right_id, report);
+  const fs::path folder = options.source / pair.right / "data";
+  const std::string left = std::string("P_rect_") + pair.left_id,
+                    right = std::string("P_rect_") + pair.right_id;
+  if (given) {
+    drive.right =
+        given_right_images(drive.images, folder, options.calibration, left, right, report);
+  } else if (!drive.camera.is_distorted()) {
+    drive.right = kitti_right_images(drive.images, folder, file, left, right, report);
   }
   add_oxts(options.source / "oxts", drive, report);
   write_drive(drive, options.log, options.copy_images, report);

@@ -18,21 +18,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-struct Wanted {
-  std::string file;
-  std::string section;
-};
-
-// The whole text is tried as a name first: file names may hold a colon.
-Wanted split(const std::string& file_and_section) {
-  std::error_code ignored;
-  const auto colon = file_and_section.rfind(':');
-  if (colon == std::string::npos || fs::is_regular_file(file_and_section, ignored)) {
-    return {file_and_section, ""};
-  }
-  return {file_and_section.substr(0, colon), file_and_section.substr(colon + 1)};
-}
-
 std::string joined(const std::vector<std::string>& names) {
   std::string list;
   for (const auto& name : names) list += (list.empty() ? "" : ", ") + name;
@@ -76,7 +61,7 @@ CalibrationEntries calibrations_in(const fs::path& path) {
   return section_calibrations(path, text);
 }
 
-const CalibrationEntry& choose(const Wanted& wanted, const CalibrationEntries& entries,
+const CalibrationEntry& choose(const CalibrationName& wanted, const CalibrationEntries& entries,
                                const std::string& side) {
   std::vector<std::string> all, offered;
   for (const CalibrationEntry& entry : entries) {
@@ -89,13 +74,14 @@ const CalibrationEntry& choose(const Wanted& wanted, const CalibrationEntries& e
   };
   const std::string list = "the sections that exist: " + joined(all);
   if (all.empty()) {
-    throw InputError(wanted.file, "it holds no camera calibration",
+    throw InputError(wanted.file.string(), "it holds no camera calibration",
                      "give an MRPT camera section, or a calibration of KITTI, OpenCV, ROS, Kalibr, "
                      "COLMAP or ORB-SLAM");
   }
   if (!wanted.section.empty()) {
     if (const auto* entry = named(wanted.section)) return *entry;
-    throw InputError(wanted.file, "it has no camera section '" + wanted.section + "'", list);
+    throw InputError(wanted.file.string(), "it has no camera section '" + wanted.section + "'",
+                     list);
   }
   if (offered.size() == 1) return *named(offered.front());
   for (const char* first : {"P0", "P_rect_00"}) {
@@ -103,17 +89,17 @@ const CalibrationEntry& choose(const Wanted& wanted, const CalibrationEntries& e
   }
   const auto matching = named_after(side, offered);
   if (matching.size() == 1) return *named(matching.front());
-  throw InputError(wanted.file, "it has several sections", "give FILE:SECTION; " + list);
+  throw InputError(wanted.file.string(), "it has several sections", "give FILE:SECTION; " + list);
 }
 
 }  // namespace
 
 PinholeCamera load_calibration(const std::string& file_and_section,
                                const std::string& preferred_side) {
-  const Wanted wanted = split(file_and_section);
+  const CalibrationName wanted = calibration_name(file_and_section);
   if (const std::string fault = fault_of_file(wanted.file); !fault.empty()) {
     const bool missing = fault == "no such file";
-    throw InputError(wanted.file, missing ? "no such calibration file" : fault,
+    throw InputError(wanted.file.string(), missing ? "no such calibration file" : fault,
                      "give FILE or FILE:SECTION");
   }
   const CalibrationEntries entries = calibrations_in(wanted.file);

@@ -166,6 +166,15 @@ std::string calibration_text(const std::filesystem::path& path) {
   return text;
 }
 
+CalibrationName calibration_name(const std::string& file_and_section) {
+  std::error_code ignored;
+  const auto colon = file_and_section.rfind(':');
+  if (colon == std::string::npos || std::filesystem::is_regular_file(file_and_section, ignored)) {
+    return {file_and_section, ""};
+  }
+  return {file_and_section.substr(0, colon), file_and_section.substr(colon + 1)};
+}
+
 CalibrationFile read_calibration_file(const std::filesystem::path& path) {
   return sections_of(path, calibration_text(path));
 }

@@ -21,6 +21,15 @@ struct CalibrationFile {
 
 inline constexpr const char* kKittiKey = "projection";
 
+/// FILE and SECTION of FILE[:SECTION]; section "": none is named.
+struct CalibrationName {
+  std::filesystem::path file;
+  std::string section;
+};
+
+/// The whole text is tried as a name first: file names may hold a colon.
+[[nodiscard]] CalibrationName calibration_name(const std::string& file_and_section);
+
 /// The text of a calibration file without a byte-order mark.
 /// @throws InputError when it cannot be read or is longer than a MB
 [[nodiscard]] std::string calibration_text(const std::filesystem::path& path);

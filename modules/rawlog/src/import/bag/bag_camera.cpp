@@ -103,6 +103,12 @@ bool needs_no_rectifying(const RosCameraInfo& info) {
          is_near(info.K[2], info.P[2], kSame_px) && is_near(info.K[5], info.P[6], kSame_px);
 }
 
+bool is_same_projection(const RosCameraInfo& a, const RosCameraInfo& b) {
+  constexpr std::array<std::size_t, 4> kEntries{0, 2, 5, 6};  // fx, cx, fy, cy
+  return std::all_of(kEntries.begin(), kEntries.end(),
+                     [&](std::size_t i) { return is_near(a.P[i], b.P[i], kSame_px); });
+}
+
 double place_in_pair(const RosCameraInfo& info) {
   return -info.P[3] / info.P[0];
 }

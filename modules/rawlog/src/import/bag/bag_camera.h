@@ -22,6 +22,9 @@ namespace oneac {
 /// Whether raw images are those of a rectified pair: no distortion, no rotation, K as in P.
 [[nodiscard]] bool needs_no_rectifying(const RosCameraInfo& info);
 
+/// Whether two cameras of a rectified pair differ by their place alone: f, cx and cy of P.
+[[nodiscard]] bool is_same_projection(const RosCameraInfo& a, const RosCameraInfo& b);
+
 /// Place of a camera of a rectified pair along its X axis [m], by P.
 [[nodiscard]] double place_in_pair(const RosCameraInfo& info);
 

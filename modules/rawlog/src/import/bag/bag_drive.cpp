@@ -213,6 +213,10 @@ void BagDrive::put_right(ImageDrive& drive, ImportReport& report) const {
   }
   RightImages right;
   right.baseline_m = place_in_pair(right_info_->info) - place_in_pair(info_->info);
+  if (!is_same_projection(info_->info, right_info_->info)) {
+    throw InputError(flag, "P of its CameraInfo has another f, cx or cy than that of the left one",
+                     "correct P: of a rectified pair they are the same; or leave it out");
+  }
   if (!is_baseline(right.baseline_m)) {
     throw InputError(flag, "is " + exact_text(right.baseline_m) + " m to the right of the left one",
                      "correct P of its CameraInfo, or leave it out");
