@@ -122,16 +122,18 @@ TEST_F(ImportImages, ScalesACalibrationOfTheSameAspectAndSaysSo) {
             std::string::npos);
 }
 
-/// A JPEG with the EXIF text of the given tags of its image directory.
-void write_exif(const fs::path& image, const std::map<int, std::string>& texts) {
+/// A JPEG with the EXIF text of the given tags of its image directory, and how to turn it.
+void write_exif(const fs::path& image, const std::map<int, std::string>& texts,
+                std::size_t orientation = 1) {
   const auto number = [](std::size_t value, int bytes) {
     std::string text;
     for (int i = 0; i < bytes; ++i) text += static_cast<char>(value >> (8 * i) & 0xff);
     return text;
   };
-  // One entry that leads to the image's directory, which is followed by its texts.
-  std::string tiff = "II*" + number(0, 1) + number(8, 4) + number(1, 2) + number(0x8769, 2) +
-                     number(4, 2) + number(1, 4) + number(26, 4) + number(0, 4);
+  // The orientation, and an entry that leads to the image's directory, which its texts follow.
+  std::string tiff = "II*" + number(0, 1) + number(8, 4) + number(2, 2) + number(0x0112, 2) +
+                     number(3, 2) + number(1, 4) + number(orientation, 4) + number(0x8769, 2) +
+                     number(4, 2) + number(1, 4) + number(38, 4) + number(0, 4);
   std::string entries, behind;
   const std::size_t data = tiff.size() + 2 + 12 * texts.size() + 4;
   for (const auto& [tag, text] : texts) {
@@ -176,6 +178,54 @@ TEST_F(ImportImages, KnowsTheZoneThatExifTells) {
   }
   EXPECT_FALSE(notes(import_image_folder(options_), "time zone"));
   expect_times({1714557600.0, 1714557601.0});
+}
+
+TEST_F(ImportImages, WhoseZoneSomeTellAreAllInIt) {
+  for (int i = 0; i < 4; ++i) {
+    std::map<int, std::string> tags{{kTaken, "2024:05:01 12:00:0" + std::to_string(i)}};
+    if (i == 1 || i == 2) tags[kZone] = "+02:00";
+    write_exif(options_.source / ("p" + std::to_string(i) + ".jpg"), tags);
+  }
+  EXPECT_TRUE(notes(import_image_folder(options_),
+                    "2 of 4 tell no time zone: that of the others is taken"));
+  expect_times({1714557600.0, 1714557601.0, 1714557602.0, 1714557603.0});
+}
+
+TEST_F(ImportImages, AfterARolledOverCounterFollowTheOthers) {
+  const std::vector<std::string> in_time{"DSC9998.jpg", "DSC9999.jpg", "DSC0000.jpg",
+                                         "DSC0001.jpg"};
+  for (std::size_t i = 0; i < in_time.size(); ++i) {
+    write_exif(options_.source / in_time[i], {{kTaken, "2024:05:01 10:00:0" + std::to_string(i)}});
+  }
+  EXPECT_TRUE(notes(import_image_folder(options_),
+                    "counter has begun anew: by their EXIF times the images go from DSC9998.jpg"));
+  EXPECT_EQ(names(), in_time);
+  expect_times({1714557600.0, 1714557601.0, 1714557602.0, 1714557603.0});
+  options_.fps = 10.0;
+  import_image_folder(options_);
+  EXPECT_EQ(names(), in_time);
+}
+
+TEST_F(ImportImages, WhoseClockWasSetBackStayInTheOrderOfTheirNames) {
+  for (int i = 0; i < 4; ++i) {  // as where the counter has begun anew, but for the names
+    write_exif(options_.source / ("DSC000" + std::to_string(i) + ".jpg"),
+               {{kTaken, "2024:05:01 10:00:0" + std::to_string((i + 2) % 4)}});
+  }
+  const std::string said = complaint_of([&] { import_image_folder(options_); });
+  EXPECT_NE(said.find("EXIF time of DSC0002.jpg that is not later"), std::string::npos) << said;
+  options_.fps = 10.0;
+  import_image_folder(options_);
+  EXPECT_EQ(names().front(), "DSC0000.jpg");
+}
+
+TEST_F(ImportImages, ThatExifSaysToTurnAreNoted) {
+  make_images({"a1.jpg"});
+  write_exif(options_.source / "a2.jpg", {{kTaken, "2024:05:01 10:00:00"}}, 6);
+  write_exif(options_.source / "a3.jpg", {{kTaken, "2024:05:01 10:00:00"}}, 1);
+  options_.fps = 10.0;
+  EXPECT_TRUE(notes(import_image_folder(options_), "1 of 3 images tell an EXIF Orientation (6)"));
+  fs::remove(options_.source / "a2.jpg");
+  EXPECT_FALSE(notes(import_image_folder(options_), "Orientation"));
 }
 
 TEST_F(ImportImages, RefusesExifTimesOfWholeSecondsThatImagesShare) {

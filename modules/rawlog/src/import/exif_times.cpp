@@ -63,6 +63,73 @@ std::optional<double> offset_of(const std::string& zone) {
   return zone[0] == '-' ? -seconds : seconds;
 }
 
+/// 1 to 8; 1 is as stored, and where nothing is told.
+int orientation_of(const fs::path& image) {
+  const Exif exif(exif_data_new_from_file(image.c_str()));
+  if (!exif) return 1;
+  const ExifEntry* entry = exif_content_get_entry(exif->ifd[EXIF_IFD_0], EXIF_TAG_ORIENTATION);
+  if (entry == nullptr || entry->format != EXIF_FORMAT_SHORT || entry->size < 2) return 1;
+  const int told = exif_get_short(entry->data, exif_data_get_byte_order(exif.get()));
+  return told >= 1 && told <= 8 ? told : 1;
+}
+
+/// Of all images; empty, and the first without, when one has none.
+std::vector<ExifTime> all_times(const std::vector<fs::path>& images, fs::path& without) {
+  std::vector<ExifTime> times;
+  for (const fs::path& image : images) {
+    const auto time = exif_time(image);
+    if (!time) {
+      without = image;
+      return {};
+    }
+    times.push_back(*time);
+  }
+  return times;
+}
+
+/// What is said of the zones in the note on EXIF times.
+std::string zone_note(const std::vector<ExifTime>& times) {
+  const auto telling = static_cast<std::size_t>(std::count_if(
+      times.begin(), times.end(), [](const ExifTime& time) { return time.zone_s.has_value(); }));
+  if (telling == times.size()) return "";
+  if (telling == 0) return ", whose time zone is not told: taken for UTC";
+  return "; " + std::to_string(times.size() - telling) + " of " + std::to_string(times.size()) +
+         " tell no time zone: that of the others is taken";
+}
+
+/// In UTC.
+std::vector<double> unix_times(const std::vector<ExifTime>& times) {
+  const auto telling = std::find_if(times.begin(), times.end(),
+                                    [](const ExifTime& time) { return time.zone_s.has_value(); });
+  double zone_s = telling == times.end() ? 0.0 : *telling->zone_s;
+  std::vector<double> all;
+  for (const ExifTime& time : times) {
+    zone_s = time.zone_s.value_or(zone_s);
+    all.push_back(time.local_s - zone_s);
+  }
+  return all;
+}
+
+/// The last number in a name; "" without one.
+std::string counter_of(const fs::path& image) {
+  const std::string stem = image.stem().string();
+  const auto end = stem.find_last_of("0123456789");
+  if (end == std::string::npos) return "";
+  const auto before = stem.find_last_not_of("0123456789", end);
+  return stem.substr(before == std::string::npos ? 0 : before + 1, end - before);
+}
+
+/// Whether a counter of the camera can have begun anew: names up to all nines, and from 0 or 1 on.
+/// Times alone do not tell: a clock set back halfway gives the same.
+bool may_have_rolled_over(const std::vector<fs::path>& images) {
+  constexpr std::size_t kFewestDigits = 3;
+  if (images.size() < 2) return false;
+  const std::string first = counter_of(images.front()), last = counter_of(images.back());
+  return last.size() >= kFewestDigits && first.size() == last.size() &&
+         last.find_first_not_of('9') == std::string::npos &&
+         first.find_first_not_of('0') >= first.size() - 1 && first.back() <= '1';
+}
+
 }  // namespace
 
 std::optional<ExifTime> exif_time(const fs::path& image) {
@@ -72,32 +139,60 @@ std::optional<ExifTime> exif_time(const fs::path& image) {
   if (!seconds) return std::nullopt;
   const auto fraction = fraction_of(text_of(exif, EXIF_TAG_SUB_SEC_TIME_ORIGINAL));
   const auto offset = offset_of(text_of(exif, EXIF_TAG_OFFSET_TIME_ORIGINAL));
-  return ExifTime{*seconds + fraction.value_or(0.0) - offset.value_or(0.0), fraction.has_value(),
-                  offset.has_value()};
+  return ExifTime{*seconds + fraction.value_or(0.0), fraction.has_value(), offset};
 }
 
 std::vector<double> stamps_from_exif(const std::vector<fs::path>& images, ImportReport& report,
                                      std::string& fault) {
-  std::vector<double> times;
-  bool zones = true, fractions = true;
-  for (const fs::path& image : images) {
-    const auto time = exif_time(image);
-    if (!time) {
-      fault = "no EXIF time of " + image.filename().string();
-      return {};
-    }
-    zones = zones && time->has_zone;
-    fractions = fractions && time->has_fraction;
-    if (!times.empty() && !(time->time_s > times.back())) {
-      fault = std::string(fractions ? "an" : "a whole second only as") + " EXIF time of " +
-              image.filename().string() + " that is not later than the one before";
-      return {};
-    }
-    times.push_back(time->time_s);
+  fs::path without;
+  const std::vector<ExifTime> told = all_times(images, without);
+  if (told.empty()) {
+    fault = "no EXIF time of " + without.filename().string();
+    return {};
   }
-  report.notes.push_back(std::string("the images are stamped with their EXIF times") +
-                         (zones ? "" : ", whose time zone is not told: taken for UTC"));
+  std::vector<double> times = unix_times(told);
+  bool fractions = told.front().has_fraction;
+  for (std::size_t i = 1; i < times.size(); ++i) {
+    fractions = fractions && told[i].has_fraction;
+    if (times[i] > times[i - 1]) continue;
+    fault = std::string(fractions ? "an" : "a whole second only as") + " EXIF time of " +
+            images[i].filename().string() + " that is not later than the one before";
+    return {};
+  }
+  report.notes.push_back("the images are stamped with their EXIF times" + zone_note(told));
   return times;
+}
+
+void unroll_counter(std::vector<fs::path>& images, ImportReport& report) {
+  if (!may_have_rolled_over(images)) return;
+  fs::path without;
+  const std::vector<double> times = unix_times(all_times(images, without));
+  const auto earlier = [](double a, double b) { return b < a; };
+  const auto step = std::adjacent_find(times.begin(), times.end(), earlier);
+  const bool one_step = step != times.end() && times.back() <= times.front() &&
+                        std::adjacent_find(step + 1, times.end(), earlier) == times.end();
+  if (!one_step) return;
+  const auto second = images.begin() + (step + 1 - times.begin());
+  std::rotate(images.begin(), second, images.end());
+  report.notes.push_back(
+      "the camera's counter has begun anew: by their EXIF times the images go "
+      "from " +
+      images.front().filename().string() + " to " + images.back().filename().string());
+}
+
+void note_orientation(const std::vector<fs::path>& images, ImportReport& report) {
+  std::size_t turned = 0;
+  int first = 1;
+  for (const fs::path& image : images) {
+    const int told = orientation_of(image);
+    if (told == 1) continue;
+    if (turned++ == 0) first = told;
+  }
+  if (turned == 0) return;
+  report.notes.push_back(std::to_string(turned) + " of " + std::to_string(images.size()) +
+                         " images tell an EXIF Orientation (" + std::to_string(first) +
+                         "): they are taken as they are stored, and the calibration has to be "
+                         "that of such images");
 }
 
 }  // namespace oneac

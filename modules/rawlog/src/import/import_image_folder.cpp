@@ -68,6 +68,8 @@ ImportReport import_image_folder(const DriveImport& options) {
   drive.T_vehicle_cam = mount_at(options.mount, height_above_road(options, report));
   drive.convention = options.convention;
   note_order(drive.images, report);
+  if (!fs::exists(options.source / "times.txt")) unroll_counter(drive.images, report);
+  note_orientation(drive.images, report);
   drive.times_s = times_of(options, drive.images, report);
   write_drive(drive, options.log, options.copy_images, report);
   return report;

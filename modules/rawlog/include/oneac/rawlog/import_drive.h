@@ -35,7 +35,7 @@ struct VideoImport : DriveImport {
 
 /// Images of any names in a folder, numbers in them by their value. Times: `fps`, else times.txt
 /// beside the images (a row per image, in s, ms, us or ns), else the names where all of them hold
-/// the time since 1970 in s, ms, us or ns. `calibration` must be given.
+/// the time since 1970 in s, ms, us or ns; else those of EXIF. `calibration` must be given.
 ImportReport import_image_folder(const DriveImport& options);
 
 /// The frames of a video, decoded to <log base>_Images as PNG files, turned as it says; times:
