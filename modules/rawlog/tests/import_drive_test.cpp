@@ -423,6 +423,19 @@ TEST_F(ImportKittiRaw, TakesItsHeightAndNamesTheLineThatIsWrong) {
   const auto said = [&] { return complaint_of([&] { import_kitti_raw(options_); }); };
   write_text(options_.source / "oxts" / "data" / "0000000001.txt", "1 2 3\n");
   EXPECT_NE(said().find("0000000001.txt: line 1"), std::string::npos) << said();
+  for (const char* no_day : {"2011-02-29", "2011-04-31", "1900-02-29", "2011-09-00"}) {
+    write_text(options_.source / "image_00" / "timestamps.txt",
+               std::string(no_day) + " 13:02:25.9\n2012-02-29 13:02:25\n");
+    EXPECT_NE(said().find("timestamps.txt: line 1"), std::string::npos) << no_day << said();
+  }
+  write_text(options_.source / "image_00" / "timestamps.txt",
+             "2012-02-29 23:59:59\n2012-03-01 00:00:00\n");
+  write_text(options_.source / "oxts" / "timestamps.txt", "");
+  import_kitti_raw(options_);
+  const auto pairs = stored<CObservationStereoImages>();
+  ASSERT_EQ(pairs.size(), 2U);
+  EXPECT_NEAR(mrpt::Clock::toDouble(pairs[0]->timestamp), 1330559999.0, 1e-6);
+  EXPECT_NEAR(mrpt::Clock::toDouble(pairs[1]->timestamp), 1330560000.0, 1e-6);
   write_text(options_.source / "image_00" / "timestamps.txt", "2011-09-26 13:02:25.9\nlater\n");
   EXPECT_NE(said().find("timestamps.txt: line 2"), std::string::npos) << said();
   fs::remove(folder_.path() / "2011_09_26" / "calib_cam_to_cam.txt");

@@ -130,6 +130,13 @@ std::optional<std::pair<std::int64_t, double>> split_number(const std::string& d
   return std::pair(whole, part);
 }
 
+/// Of a month, 1 to 12.
+int days_of(int year, int month) {
+  constexpr std::array<int, 12> kDays{31, 28, 31, 30, 31, 30, 31, 31, 30, 31, 30, 31};
+  const bool leap = (year % 4 == 0 && year % 100 != 0) || year % 400 == 0;
+  return kDays.at(static_cast<std::size_t>(month - 1)) + (leap && month == 2 ? 1 : 0);
+}
+
 }  // namespace
 
 std::vector<std::size_t> rows_of(const std::vector<fs::path>& images, std::size_t rows) {
@@ -224,10 +231,10 @@ std::optional<double> date_stamp(const std::string& text) {
     at = result.ptr;
   }
   const auto zone = zone_of({at, static_cast<std::size_t>(end - at)});
-  const bool sound = zone && fields[0] >= 1970 && fields[0] <= 2100 && fields[1] >= 1 &&
-                     fields[1] <= 12 && fields[2] >= 1 && fields[2] <= 31 && fields[3] >= 0 &&
-                     fields[3] < 24 && fields[4] >= 0 && fields[4] < 60 && fields[5] >= 0 &&
-                     fields[5] <= 60;
+  const bool sound =
+      zone && fields[0] >= 1970 && fields[0] <= 2100 && fields[1] >= 1 && fields[1] <= 12 &&
+      fields[2] >= 1 && fields[2] <= days_of(fields[0], fields[1]) && fields[3] >= 0 &&
+      fields[3] < 24 && fields[4] >= 0 && fields[4] < 60 && fields[5] >= 0 && fields[5] <= 60;
   if (!sound) return std::nullopt;
   std::tm calendar{};
   calendar.tm_year = fields[0] - 1900;
