@@ -329,6 +329,21 @@ TEST_F(ImportEuroc, ReadsListImagesAndSensor) {
   EXPECT_EQ(import_euroc(options_).images, 2U);
 }
 
+TEST_F(ImportEuroc, ReadsNamesAndHeadingsAsProgramsWriteThem) {
+  make_sequence();
+  const fs::path cam = options_.source / "mav0" / "cam0";
+  for (const char* name : {"img 0.png", "img#1.png"}) test::write_image(cam / "data" / name);
+  for (const char* list : {"1403636579763555584,img 0.png\n1403636579863555584,img#1.png\n",
+                           "\xEF\xBB\xBF#timestamp [ns],filename\n1403636579763555584,img 0.png\n"
+                           "1403636579863555584,img#1.png\n",
+                           "\"timestamp\",\"filename\"\r\n\"1403636579763555584\",\"img 0.png\"\r\n"
+                           "\"1403636579863555584\", \"img#1.png\"\r\n"}) {
+    write_text(cam / "data.csv", list);
+    EXPECT_EQ(import_euroc(options_).images, 2U) << list;
+    expect_times({1403636579.763555584, 1403636579.863555584});
+  }
+}
+
 TEST_F(ImportEuroc, NamesTheLineThatIsWrong) {
   make_sequence();
   const fs::path list = options_.source / "mav0" / "cam0" / "data.csv";
@@ -356,6 +371,15 @@ TEST_F(ImportTum, ReadsItsList) {
   EXPECT_EQ(stored<CObservationImage>().at(0)->sensorLabel, "rgb");
   options_.calibration.clear();
   EXPECT_NE(complaint_of([&] { import_tum(options_); }).find("--calibration"), std::string::npos);
+}
+
+TEST_F(ImportTum, ReadsNamesWithBlanksAndAHeading) {
+  make_images({"rgb/img 0.png", "rgb/1.png"});
+  write_text(options_.source / "rgb.txt",
+             "timestamp filename\n1305031452.79 rgb/img 0.png\n"
+             "1305031452.82 rgb/1.png depth/1.png # a pair\n");
+  EXPECT_EQ(import_tum(options_).images, 2U);
+  expect_times({1305031452.79, 1305031452.82});
 }
 
 class ImportKittiRaw : public ImportDrive {

@@ -6,9 +6,10 @@
 #include "oneac/base/error.h"
 #include "oneac/base/input_file.h"
 
-#include <algorithm>
+#include <cctype>
 #include <fstream>
-#include <sstream>
+#include <string_view>
+#include <utility>
 
 namespace oneac {
 namespace {
@@ -20,20 +21,60 @@ struct Listed {
   std::vector<double> times_s;
 };
 
-/// Lines "time name" or "time,name" with times since 1970, '#' before a comment.
+struct ListLine {
+  std::string time, name;
+};
+
+/// Without blanks and quotes around it.
+std::string bare(std::string_view text) {
+  constexpr std::string_view kAround = " \t\r\"'";
+  const auto first = text.find_first_not_of(kAround);
+  if (first == std::string_view::npos) return "";
+  return std::string(text.substr(first, text.find_last_not_of(kAround) + 1 - first));
+}
+
+/// Behind a comma the next field, with its blanks and '#'; empty time: no image.
+ListLine fields_of(std::string_view line) {
+  const std::size_t comma = line.find(',');
+  const std::string_view behind = line.substr(comma + 1);
+  return {bare(line.substr(0, comma)), bare(behind.substr(0, behind.find(',')))};
+}
+
+/// A name with blanks where such an image is there, else the next word.
+ListLine words_of(std::string_view line, const fs::path& folder) {
+  const std::string text = bare(line.substr(0, line.find(" #")));
+  const std::size_t blank = text.find_first_of(" \t");
+  if (blank == std::string::npos) return {text, ""};
+  const std::string behind = bare(std::string_view(text).substr(blank));
+  std::error_code ignored;
+  const bool whole = fs::is_regular_file(folder / behind, ignored);
+  return {text.substr(0, blank), whole ? behind : behind.substr(0, behind.find_first_of(" \t"))};
+}
+
+/// A first line may name the columns.
+bool is_heading(const ListLine& line, const fs::path& folder) {
+  std::error_code ignored;
+  return !line.time.empty() && std::isdigit(static_cast<unsigned char>(line.time.front())) == 0 &&
+         !fs::is_regular_file(folder / line.name, ignored);
+}
+
+/// Lines "time name" or "time,name" with times since 1970; '#' begins a comment.
 Listed read_list(const fs::path& file, const fs::path& folder) {
+  constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
   std::ifstream stream = open_input(file, "give a folder that has it");
   Listed listed;
   std::size_t number = 0;
+  bool is_first = true;
   for (std::string line; std::getline(stream, line);) {
     ++number;
-    std::replace(line.begin(), line.end(), ',', ' ');
-    std::istringstream words(line.substr(0, line.find('#')));
-    std::string time, name;
-    if (!(words >> time)) continue;
+    if (number == 1 && line.rfind(kByteOrderMark, 0) == 0) line.erase(0, kByteOrderMark.size());
+    const bool commas = line.find(',') != std::string::npos;
+    const ListLine entry = commas ? fields_of(line) : words_of(line, folder);
+    if (bare(line).empty() || bare(line).front() == '#') continue;
+    if (std::exchange(is_first, false) && is_heading(entry, folder)) continue;
     const std::string where = file.string() + ": line " + std::to_string(number);
-    const double time_s = seconds_since_1970(time);
-    if (!(words >> name) || time_s < 0.0) {
+    const double time_s = seconds_since_1970(entry.time);
+    if (entry.name.empty() || time_s < 0.0) {
       throw InputError(where, "is no time since 1970 and name of an image",
                        "get the file again from its source");
     }
@@ -41,7 +82,7 @@ Listed read_list(const fs::path& file, const fs::path& folder) {
       throw InputError(where, "time does not increase", "sort the file by time");
     }
     listed.times_s.push_back(time_s);
-    listed.images.push_back(folder / name);
+    listed.images.push_back(folder / entry.name);
   }
   return listed;
 }
