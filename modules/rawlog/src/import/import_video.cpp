@@ -52,6 +52,10 @@ class FrameWriter {
       drive.times_s.push_back(time);
     }
     if (to_its_end) note_early_end(video, frame, report);
+    if (paced_ > 0) {
+      report.notes.push_back("FFmpeg gives the last " + std::to_string(paced_) +
+                             " frames no time: they follow at the pace of those before");
+    }
     if (video.damaged() > 0) {
       report.notes.push_back("FFmpeg finds damage at " + std::to_string(video.damaged()) +
                              " of the video's frames: they and those that build on them are "
@@ -83,11 +87,12 @@ class FrameWriter {
     return time;
   }
 
-  /// The last frame of MPEG-4 with B-frames in an AVI has no time: files of one rate, which it
-  /// keeps.
+  /// An AVI tells no times of presentation, so that frames that wait for others, the last ones of
+  /// H.264 and MPEG-4 with B-frames, have none: it is of one rate, which they keep.
   double paced(std::size_t frame) {
-    if (frame < 2 || is_paced_) fail(frame, "it has no time", "give the rate with --fps");
-    is_paced_ = true;
+    constexpr std::size_t kMostHeld = 16;  // of H.264 and H.265
+    if (frame < 2 || paced_ == kMostHeld) fail(frame, "it has no time", "give the rate with --fps");
+    ++paced_;
     return last_s_ + step_s_;
   }
 
@@ -135,7 +140,7 @@ class FrameWriter {
   cv::Size size_;                       ///< of the first frame
   double begin_s_ = 0.0;                ///< of the first frame
   double last_s_ = 0.0, step_s_ = 0.0;  ///< of the frame before, and to it
-  bool is_paced_ = false;               ///< a frame had no time
+  std::size_t paced_ = 0;               ///< frames that had no time
 };
 
 std::vector<GpsRecord> read_gps(const VideoImport& options, ImportReport& report) {
