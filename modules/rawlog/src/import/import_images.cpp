@@ -173,7 +173,7 @@ ImageReferences::ImageReferences(const fs::path& log, bool copy) {
 
 std::string ImageReferences::refer_to(const fs::path& image, const std::string& prefix) const {
   if (copies_.empty()) return fs::canonical(image).string();
-  const std::string name = prefix + image.filename().string();
+  std::string name = prefix + image.filename().string();
   std::error_code error;
   fs::copy_file(image, replaced_file(copies_ / name), fs::copy_options::overwrite_existing, error);
   if (error) {

@@ -125,7 +125,7 @@ class FrameWriter {
     std::string number = std::to_string(frame);
     constexpr std::size_t kDigits = 6;
     number.insert(0, number.size() < kDigits ? kDigits - number.size() : 0, '0');
-    const fs::path file = folder_ / (number + ".png");
+    fs::path file = folder_ / (number + ".png");
     bool written = false;
     try {
       written = cv::imwrite(file.string(), image);
