@@ -99,13 +99,12 @@ std::optional<RelativePose> motion_near(const Eigen::Matrix3d& E) {
   T.t = ttT.col(largest).normalized();
   T.R = (2.0 / E.squaredNorm()) * cofactors -
         std::sqrt(2.0 / E.squaredNorm()) * cross_matrix(T.t) * E;
-  for (int i = 0; i < kMostApproaches; ++i) {
+  for (int i = 0; i <= kMostApproaches; ++i) {
     const Eigen::Matrix3d RtR = T.R.transpose() * T.R;
-    if (i >= kApproaches && is_identity(RtR)) break;
+    if (i >= kApproaches && is_identity(RtR)) return T;
     T.R = 0.5 * T.R * (3.0 * Eigen::Matrix3d::Identity() - RtR);
   }
-  if (!T.t.allFinite() || !is_identity(T.R.transpose() * T.R)) return std::nullopt;
-  return T;
+  return std::nullopt;
 }
 
 bool polish_on_five_points(AcSpan points, RelativePose& T) {
