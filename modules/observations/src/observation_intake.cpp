@@ -113,10 +113,8 @@ Intake ObservationIntake::take_inertial(const CObservation& observation) {
   Intake intake;
   intake.inertial = imu_sample(observation);
   if (!intake.inertial) return pass(PassedOver::kUnusable);
-  if (!intake.inertial->acceleration && !intake.inertial->angular_rate) {
-    return pass(PassedOver::kNotNeeded);
-  }
-  imu_ = observation.sensorLabel;
+  // A lone gyroscope serves until an IMU that feels gravity comes.
+  if (intake.inertial->acceleration) imu_ = observation.sensorLabel;
   ++counts_.accelerations;
   return intake;
 }

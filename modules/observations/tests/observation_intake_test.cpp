@@ -169,6 +169,27 @@ TEST(ObservationIntake, GivesTheCourseWithItsSpeedAndRatesWithoutAcceleration) {
   EXPECT_EQ(inertial->angular_rate->z(), 0.25);
 }
 
+TEST(ObservationIntake, ALoneGyroscopeTakesNoImusPlace) {
+  ObservationIntake intake({});
+  const auto reading = [](const char* label, double seconds, bool feels) {
+    mrpt::obs::CObservationIMU imu;
+    imu.sensorLabel = label;
+    imu.timestamp = mrpt::Clock::fromDouble(test::kStart + seconds);
+    for (const auto rate : {mrpt::obs::IMU_WX, mrpt::obs::IMU_WY, mrpt::obs::IMU_WZ}) {
+      imu.set(rate, 0.25);
+    }
+    if (!feels) return imu;
+    for (const auto axis : {mrpt::obs::IMU_X_ACC, mrpt::obs::IMU_Y_ACC, mrpt::obs::IMU_Z_ACC}) {
+      imu.set(axis, 5.0);
+    }
+    return imu;
+  };
+  EXPECT_TRUE(intake.take(reading("GYRO", 0.0, false)).inertial);
+  const auto felt = intake.take(reading("IMU", 0.1, true)).inertial;
+  ASSERT_TRUE(felt && felt->acceleration && felt->angular_rate);
+  EXPECT_EQ(intake.take(reading("GYRO", 0.2, false)).passed_over, PassedOver::kOtherSensor);
+}
+
 TEST(ObservationIntake, GivesASpeedByPositionsAlone) {
   ObservationIntake intake({});
   EXPECT_EQ(intake.take(*test::gga(1.0, 36.7, -4.4, 1.0)).passed_over, PassedOver::kNotNeeded);
