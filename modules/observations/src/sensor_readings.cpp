@@ -162,7 +162,8 @@ std::optional<SpeedReading> SpeedOverGround::between_positions(double time_s,
   const SpeedReading told = speed_between(*last_, now);
   if (is_driven(told)) return go_on_from(told);
   // Two places near each other and far from where the car was: that one was wrong.
-  if (doubted_ && time_s - doubted_->time_s >= kShortestStretch) {
+  if (doubted_ && time_s - doubted_->time_s < kShortestStretch) return std::nullopt;
+  if (doubted_) {
     const SpeedReading there = speed_between(*doubted_, now);
     if (there.speed <= VehicleLimits::kFastest) return go_on_from(there);
   }

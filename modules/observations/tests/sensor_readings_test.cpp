@@ -154,6 +154,21 @@ TEST(SpeedOverGround, GoesOnWhereTheReceiverStays) {
   EXPECT_EQ(count, 8U);
 }
 
+TEST(SpeedOverGround, GoesOnWithinASecondWhereAFastReceiverStays) {
+  SpeedOverGround speeds;
+  std::optional<double> again_at;
+  for (int tenth = 0; tenth <= 60; ++tenth) {
+    auto reading = gps_reading(*moving_gga(0.1 * tenth)).value();
+    if (tenth >= 30) reading.position->latitude_deg += 0.01;
+    const auto speed = speeds.add(reading);
+    if (!speed) continue;
+    EXPECT_NEAR(speed->speed, 12.0, 0.05) << tenth;
+    if (tenth >= 30 && !again_at) again_at = 0.1 * tenth;
+  }
+  ASSERT_TRUE(again_at);
+  EXPECT_LT(*again_at, 4.8);  // 0.8 s between two positions, twice: the last was up to 0.8 s old
+}
+
 TEST(SpeedOverGround, SaysNothingAcrossAGap) {
   SpeedOverGround speeds;
   EXPECT_FALSE(told(speeds, moving_gga(0.0)));
