@@ -51,30 +51,34 @@ std::vector<Run> runs_of(const Fixes& fixes) {
   return runs;
 }
 
-/// Whether the few fixes of a run do not fit between the runs of many around them.
-bool is_misdated(const std::vector<Run>& runs, std::size_t at) {
-  const Run& run = runs[at];
-  if (!run.is_few()) return false;
-  constexpr double kNever = std::numeric_limits<double>::infinity();
-  double before = -kNever, after = kNever;
-  for (std::size_t i = 0; i < at; ++i) {
-    if (!runs[i].is_few()) before = std::max(before, runs[i].last_s);
+constexpr double kNever = std::numeric_limits<double>::infinity();
+
+/// Per run, when the runs of many behind it begin.
+std::vector<double> begins_behind(const std::vector<Run>& runs) {
+  std::vector<double> begins(runs.size(), kNever);
+  for (std::size_t i = runs.size(); i-- > 1;) {
+    begins[i - 1] = runs[i].is_few() ? begins[i] : std::min(begins[i], runs[i].first_s);
   }
-  for (std::size_t i = at + 1; i < runs.size(); ++i) {
-    if (!runs[i].is_few()) after = std::min(after, runs[i].first_s);
-  }
-  if (before == -kNever && after == kNever) return false;  // few anywhere
-  const bool fits = before < run.first_s && run.last_s < after;
-  const double away = std::min(run.first_s - before, after - run.last_s);
-  return !fits || away > kOtherDay_s;
+  return begins;
+}
+
+/// Whether the few fixes of a run do not fit between the end of the runs of many before it and the
+/// begin of those behind.
+bool is_misdated(const Run& run, double before_s, double behind_s) {
+  if (!run.is_few() || (before_s == -kNever && behind_s == kNever)) return false;  // few anywhere
+  const bool fits = before_s < run.first_s && run.last_s < behind_s;
+  return !fits || std::min(run.first_s - before_s, behind_s - run.last_s) > kOtherDay_s;
 }
 
 void take_out_misdated(Fixes& fixes) {
   const std::vector<Run> runs = runs_of(fixes);
+  const std::vector<double> behind = begins_behind(runs);
+  double before = -kNever;
   Fixes kept;
   kept.reserve(fixes.size());
   for (std::size_t i = 0; i < runs.size(); ++i) {
-    if (is_misdated(runs, i)) continue;
+    if (is_misdated(runs[i], before, behind[i])) continue;
+    if (!runs[i].is_few()) before = std::max(before, runs[i].last_s);
     const auto begin = fixes.begin();
     std::move(begin + static_cast<std::ptrdiff_t>(runs[i].begin),
               begin + static_cast<std::ptrdiff_t>(runs[i].end), std::back_inserter(kept));
