@@ -4,6 +4,7 @@
 #include "oneac/base/fingerprint.h"
 
 #include <cstddef>
+#include <string_view>
 #include <system_error>
 #include <vector>
 
@@ -31,6 +32,11 @@ std::ifstream open_input(const fs::path& path, const std::string& cure) {
   std::ifstream stream(path, std::ios::binary);
   if (!stream) throw InputError(path.string(), "cannot be opened", "check its permissions");
   return stream;
+}
+
+void drop_byte_order_mark(std::string& text) {
+  constexpr std::string_view kMark = "\xEF\xBB\xBF";
+  if (text.compare(0, kMark.size(), kMark) == 0) text.erase(0, kMark.size());
 }
 
 std::string content_hash(const fs::path& path) {

@@ -8,6 +8,8 @@
 
 #include <fstream>
 #include <iterator>
+#include <string>
+#include <utility>
 
 namespace oneac {
 namespace {
@@ -30,6 +32,19 @@ TEST(InputFile, SaysWhatElseAPathIs) {
   EXPECT_EQ(fault_of_file(folder.path()), "is a folder");
   EXPECT_EQ(fault_of_file(folder.path() / "pipe"), "is a pipe, a device or a socket, not a file");
   EXPECT_NE(fault_of_file(folder.path() / "loop").find("cannot be read ("), std::string::npos);
+}
+
+TEST(InputFile, ByteOrderMarksAreTakenAwayAtTheBeginAlone) {
+  for (const auto& [text, expected] :
+       {std::pair<std::string, std::string>{"\xEF\xBB\xBFtime", "time"},
+        {"time", "time"},
+        {"a\xEF\xBB\xBF", "a\xEF\xBB\xBF"},
+        {"\xEF\xBB", "\xEF\xBB"},
+        {"", ""}}) {
+    std::string found = text;
+    drop_byte_order_mark(found);
+    EXPECT_EQ(found, expected);
+  }
 }
 
 TEST(InputFile, OpensFilesAndRefusesTheRest) {

@@ -1,9 +1,6 @@
 #include "video_maker.h"
 
-extern "C" {
-#include <libavcodec/avcodec.h>
-#include <libavformat/avformat.h>
-}
+#include "import/video_handles.h"
 
 #include <cstdint>
 #include <memory>
@@ -24,16 +21,6 @@ struct CloseMuxer {
     avformat_free_context(muxer);
   }
 };
-struct FreeCodec {
-  void operator()(AVCodecContext* codec) const { avcodec_free_context(&codec); }
-};
-struct FreePacket {
-  void operator()(AVPacket* packet) const { av_packet_free(&packet); }
-};
-struct FreeFrame {
-  void operator()(AVFrame* frame) const { av_frame_free(&frame); }
-};
-
 class VideoMaker {
  public:
   explicit VideoMaker(const std::filesystem::path& file) {
@@ -98,9 +85,9 @@ class VideoMaker {
   }
 
   std::unique_ptr<AVFormatContext, CloseMuxer> muxer_;
-  std::unique_ptr<AVCodecContext, FreeCodec> codec_;
-  std::unique_ptr<AVPacket, FreePacket> packet_{av_packet_alloc()};
-  std::unique_ptr<AVFrame, FreeFrame> frame_{av_frame_alloc()};
+  Codec codec_;
+  Packet packet_{av_packet_alloc()};
+  Frame frame_{av_frame_alloc()};
   AVStream* stream_ = nullptr;
 };
 

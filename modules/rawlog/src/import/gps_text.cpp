@@ -304,7 +304,7 @@ std::vector<GpsRecord> read_gps_csv(const fs::path& file, ImportReport& report) 
   std::ifstream stream = open_input(file, "check its name");
   std::string line;
   next_line(stream, line);
-  if (line.compare(0, 3, "\xEF\xBB\xBF") == 0) line.erase(0, 3);
+  drop_byte_order_mark(line);
   const char separator = line.find(';') != std::string::npos ? ';' : ',';
   const Columns columns = columns_of(split(line, separator));
   if (!columns.time || !columns.latitude || !columns.longitude) {

@@ -60,14 +60,13 @@ bool is_heading(const ListLine& line, const fs::path& folder) {
 
 /// Lines "time name" or "time,name" with times since 1970; '#' begins a comment.
 Listed read_list(const fs::path& file, const fs::path& folder) {
-  constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
   std::ifstream stream = open_input(file, "give a folder that has it");
   Listed listed;
   std::size_t number = 0;
   bool is_first = true;
   for (std::string line; std::getline(stream, line);) {
     ++number;
-    if (number == 1 && line.rfind(kByteOrderMark, 0) == 0) line.erase(0, kByteOrderMark.size());
+    if (number == 1) drop_byte_order_mark(line);
     const bool commas = line.find(',') != std::string::npos;
     const ListLine entry = commas ? fields_of(line) : words_of(line, folder);
     if (bare(line).empty() || bare(line).front() == '#') continue;

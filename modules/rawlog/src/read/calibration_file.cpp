@@ -159,10 +159,7 @@ std::string calibration_text(const std::filesystem::path& path) {
   if (text.size() == kLongest) {
     throw InputError(path.string(), "it is too long for a calibration", "check its name");
   }
-  constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
-  if (text.compare(0, kByteOrderMark.size(), kByteOrderMark) == 0) {
-    text.erase(0, kByteOrderMark.size());
-  }
+  drop_byte_order_mark(text);
   return text;
 }
 

@@ -16,6 +16,9 @@ namespace oneac {
 /// @throws InputError naming the path and fault_of_file(), or that it cannot be opened
 [[nodiscard]] std::ifstream open_input(const std::filesystem::path& path, const std::string& cure);
 
+/// Takes the mark away that some editors put before a text.
+void drop_byte_order_mark(std::string& text);
+
 /// A number that stands for the content of a file (64 bits in hexadecimal), for telling builds
 /// apart, not against forgery; "" when the file cannot be read.
 [[nodiscard]] std::string content_hash(const std::filesystem::path& path);
