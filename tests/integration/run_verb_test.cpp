@@ -271,5 +271,23 @@ TEST_F(RunVerb, SaysWhichMaskIsMissingOrOfAnotherSize) {
   EXPECT_EQ(std::count(small.err.begin(), small.err.end(), '\n'), 1) << small.err;
 }
 
+TEST_F(RunVerb, SaysThatMasksLeaveLittleOfTheImages) {
+  const fs::path masks = scratch() / "masks";
+  const cv::Mat first = cv::imread(fs::directory_iterator(drive() / "Images")->path().string());
+  const auto told = [&] {
+    return oneac_program({"run", log(), "-o", out(), "--no-progress", "--count", "5", "--mask-dir",
+                          masks.string()})
+        .err;
+  };
+  write_masks(drive() / "Images", masks, first.cols, first.rows);
+  const std::string half = told();
+  EXPECT_EQ(half.find("the masks leave out"), std::string::npos) << half;
+  for (const auto& mask : fs::directory_iterator(masks)) {
+    cv::imwrite(mask.path().string(), cv::Mat(first.rows, first.cols, CV_8U, cv::Scalar(0)));
+  }
+  const std::string all = told();
+  EXPECT_NE(all.find("the masks leave out 100 % of the images"), std::string::npos) << all;
+}
+
 }  // namespace
 }  // namespace oneac

@@ -56,6 +56,7 @@ struct DriveRecord {
   Tilt tilt;                         ///< as believed at the end
   double camera_height = 0.0;        ///< [m] in use; 0: none
   std::string scale_source;          ///< the parameter front_end.scale.source
+  double masked = 0.0;               ///< shares of the frames that their masks leave out, summed
   GreyImage car_mask;                ///< FrontEnd::car_mask() at the end
   bool car_mask_refused = false;     ///< FrontEnd::car_mask_refused() at the end
   double length_doubt = 0.0;         ///< FrontEnd::length_doubt() at the end

@@ -4,6 +4,7 @@
 #include "terminal/progress_bar.h"
 
 #include "oneac/base/error.h"
+#include "oneac/base/mask.h"
 #include "oneac/base/ordered_pipeline.h"
 #include "oneac/observations/repeat_watch.h"
 
@@ -19,6 +20,7 @@ namespace {
 struct Prepared {
   PreparedFrame frame;
   double decode_ms = 0.0;
+  double masked = 0.0;               ///< share of the image that its mask leaves out
   std::vector<SpeedReading> wheels;  ///< known before it
 };
 
@@ -179,8 +181,8 @@ class Drive {
   /// Called by several threads at once.
   [[nodiscard]] Prepared prepare(const FrameTicket& ticket) const {
     CameraFrame frame = source_.load(ticket);
-    const double decode_ms = frame.decode_ms;
-    return Prepared{front_end_.prepare(std::move(frame)), decode_ms, ticket.wheels};
+    const double decode_ms = frame.decode_ms, masked = share_left_out(frame.mask.view());
+    return Prepared{front_end_.prepare(std::move(frame)), decode_ms, masked, ticket.wheels};
   }
 
   /// @return whether to go on
@@ -194,6 +196,7 @@ class Drive {
     const bool is_first = record_.frames.empty();
     if (is_first) remember_mounting(frame);
     speeds_.feed_until(frame.time_s, front_end_);
+    record_.masked += prepared.masked;
     const GreyImage image = observer_ ? frame.image : GreyImage{};
     record_.add(front_end_.process(std::move(prepared.frame)), prepared.decode_ms);
     record_.take(front_end_.take_tracks());

@@ -297,6 +297,17 @@ std::string about_strange_gyroscope(const DriveRecord& record) {
 
 namespace {
 
+/// Masks that leave little of the images; most often they are white where they should be black.
+std::string about_masks(const DriveRecord& record) {
+  constexpr double kWorthSaying = 0.5;
+  if (record.frames.empty()) return "";
+  const double share = record.masked / static_cast<double>(record.frames.size());
+  if (share <= kWorthSaying) return "";
+  return "the masks leave out " + fixed_text(100.0 * share, 0) +
+         " % of the images: what is dark in a mask is not used; turn masks about that are white "
+         "there";
+}
+
 /// What became of the images themselves.
 std::vector<std::string> notes_about_images(const DriveRecord& record) {
   std::vector<std::string> notes;
@@ -317,6 +328,7 @@ std::vector<std::string> notes_about_images(const DriveRecord& record) {
         record.first_repeated + "), and were left out: the camera froze, or a video was stretched");
   }
   if (const std::string lone = about_lone_images(record); !lone.empty()) notes.push_back(lone);
+  if (const std::string masks = about_masks(record); !masks.empty()) notes.push_back(masks);
   return notes;
 }
 

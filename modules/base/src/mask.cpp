@@ -16,4 +16,14 @@ std::string fault_of_mask(const ImageView& mask) {
          ", and what is below 128 is not used";
 }
 
+double share_left_out(const ImageView& mask) {
+  if (mask.width <= 0 || mask.height <= 0) return 0.0;
+  std::ptrdiff_t out = 0;
+  for (int v = 0; v < mask.height; ++v) {
+    const std::uint8_t* row = mask.data + static_cast<std::ptrdiff_t>(v) * mask.stride;
+    out += std::count_if(row, row + mask.width, [](std::uint8_t p) { return p < kMaskUses; });
+  }
+  return static_cast<double>(out) / mask.width / mask.height;
+}
+
 }  // namespace oneac

@@ -14,6 +14,9 @@ inline constexpr std::uint8_t kMaskUses = 128;
 /// pixels apart. "" for a sound one, also for one that is black.
 [[nodiscard]] std::string fault_of_mask(const ImageView& mask);
 
+/// The share of its pixels that a mask leaves out. [-]; 0 without a mask
+[[nodiscard]] double share_left_out(const ImageView& mask);
+
 /// For messages about such a mask.
 inline constexpr const char* kMaskCure = "write 255 where pixels are used and 0 where not";
 
