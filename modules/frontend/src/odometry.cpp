@@ -211,6 +211,8 @@ Odometry::SeenInTime Odometry::believed(const FrameStamp& before, const FrameSta
     seen = refused(std::move(seen), last_motion_);
     in_time.status = seen.status;
   }
+  first_rest_.follow(seen, before.time_s, now.time_s);
+  in_time.began_at_rest = first_rest_.is_sure();
   return {std::move(seen), std::move(in_time)};
 }
 

@@ -2,6 +2,7 @@
 
 #include "attitude/attitude.h"
 #include "map/keyframe_map.h"
+#include "scale/first_rest.h"
 #include "scale/scale.h"
 #include "setup/setup_check.h"
 #include "two_view/turn_gate.h"
@@ -90,6 +91,7 @@ class Odometry {
   TurnGate turn_gate_;
   CourseBelief course_;
   Attitude attitude_;
+  FirstRest first_rest_;
   Scale scale_;
   SetupCheck setup_;
   KeyframeMap map_;

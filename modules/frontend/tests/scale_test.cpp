@@ -152,17 +152,19 @@ TEST(Scale, ARestThatNobodySawOnTheRoadIsNotMetric) {
 }
 
 TEST(Scale, ARestThatMayBeTheBonnetsIsNotMetricBeforeASpeedIsKnown) {
-  const auto rest_of_a_drive = [](bool moved, bool car_is_known) {
+  const auto rest_of_a_drive = [](bool moved, bool car_is_known, bool began_at_rest) {
     Scale scale = started(by("height"));
     const StepStatus before = moved ? StepStatus::kOk : StepStatus::kNoMotion;
     static_cast<void>(scale.length_of(step(before, 10.0, 1.0), {}));
     StepInTime resting = rest(MeasuredTravel{0.001, 0.004, LengthSource::kRoadImage, true});
     resting.car_is_known = car_is_known;
+    resting.began_at_rest = began_at_rest;
     return scale.length_of(resting, {});
   };
-  EXPECT_TRUE(rest_of_a_drive(false, false).metric) << "nothing has moved yet";
-  EXPECT_FALSE(rest_of_a_drive(true, false).metric);
-  EXPECT_TRUE(rest_of_a_drive(true, true).metric) << "the bonnet is masked, or there is none";
+  EXPECT_TRUE(rest_of_a_drive(false, false, true).metric) << "all has kept its place for a while";
+  EXPECT_FALSE(rest_of_a_drive(false, false, false).metric) << "the bonnet and far scenery may do";
+  EXPECT_FALSE(rest_of_a_drive(true, false, true).metric);
+  EXPECT_TRUE(rest_of_a_drive(true, true, false).metric) << "the bonnet is masked, or is none";
 }
 
 TEST(Scale, ImagesThatShowTravelShowNoRestBeforeASpeedIsKnown) {

@@ -256,9 +256,9 @@ StepLength Scale::at_rest(const StepInTime& step) const {
   if (step.through_dirt) return without_metres(held(step));
   StepLength result;
   result.source = LengthSource::kStanding;
-  // While no speed is known, a bonnet rests as a road at rest does: before anything has moved the
-  // car stands; afterwards that is known only where the car is.
-  const bool may_be_the_car = !expected && moved_ && !step.car_is_known;
+  // While no speed is known, a bonnet rests as a road at rest does: before anything has moved it
+  // takes a while of rest to know, afterwards that the car's own parts are known.
+  const bool may_be_the_car = !expected && !(moved_ ? step.car_is_known : step.began_at_rest);
   // Unless the car stood a moment ago most of the picture has to rest: a few points do by chance,
   // like the edges of the blocks of a compressed picture.
   const bool stood = expected && speaks_for_rest(*expected);

@@ -18,7 +18,7 @@ namespace {
 constexpr double kUsualHeight = 1.5;
 constexpr double kLeastHeights = 0.05;  // [heights] room for the search at a standstill
 // Where two views did not say how sure they are [rad]: rotation, direction.
-constexpr double kTurnSigma = 0.001, kTravelSigma = 0.02;
+constexpr double kUntoldTurnSigma = 0.001, kTravelSigma = 0.02;
 // [rad] 1σ of a direction that was taken from the step before.
 constexpr double kHeadingSigma = 0.04;
 constexpr double kLeastExpectedSigma = 0.03;  // [heights]
@@ -96,7 +96,7 @@ std::optional<MeasuredTravel> road_travel(const RoadPair& road, const TwoView& s
   const double direction_sigma =
       directed ? rms(seen.covariance.bottomRightCorner<3, 3>(), kTravelSigma) : kHeadingSigma;
   step.information =
-      motion_information(rms(seen.covariance.topLeftCorner<3, 3>(), kTurnSigma), direction_sigma);
+      motion_information(rms(seen.covariance.topLeftCorner<3, 3>(), kUntoldTurnSigma), direction_sigma);
   step.R_level_cam = prior.first.R_level_cam;
   step.pitch_sigma = std::max(prior.first.pitch_sigma, step.pitch_sigma);
   step.roll_sigma = std::max(prior.first.roll_sigma, step.roll_sigma);

@@ -25,6 +25,7 @@ struct StepInTime {
   std::optional<MeasuredTravel> direct;  ///< what the road's grey values or stereo say of it
   double resting = 1.0;                  ///< share of the points that rest, of a step at rest
   bool car_is_known = true;              ///< what rests in the images is not the car's own
+  bool began_at_rest = true;             ///< so says FirstRest; asked while nothing has moved
   bool shows_travel = false;             ///< the images show travel, whatever rests in them
   bool through_dirt = false;             ///< what rests may be drops or dirt on the glass
 
