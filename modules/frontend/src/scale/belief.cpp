@@ -139,6 +139,8 @@ StepLength Scale::decided(const StepInTime& step,
     return unscaled;
   }
   StepLength goes_on = held(step);
+  // Images and speed together were too unsure: the speed alone is no surer.
+  if (result.without_inertia) goes_on = without_metres(goes_on);
   goes_on.conflict = result.conflict;
   goes_on.refused = result.refused || (unsure_map && is_against(told.front(), expected));
   goes_on.too_fast = result.too_fast;
@@ -229,6 +231,9 @@ StepLength Scale::steadied(const StepLength& told, const ExpectedLength& expecte
   result.length = mean_of(told, inertia).length;
   result.sigma_m = told.sigma_m * inertia.sigma_m / std::hypot(told.sigma_m, inertia.sigma_m);
   result.sigma_m *= birge_ratio(told, inertia);
+  // The speed was learned from lengths of the same map, or the same road.
+  const double shared = common_sigma(told.source) * told.length;
+  result.sigma_m = std::max(result.sigma_m, std::min(shared, expected.common));
   result.sigma = result.sigma_m / std::max(result.length, kStillness);
   return result;
 }
@@ -240,13 +245,14 @@ StepLength Scale::held(const StepInTime& step) const {
   const auto expected = inertia_.expect(step.begin_s, step.end_s);
   if (!expected || !(expected->length > 0.0)) return result;
   result.length = expected->length;
-  const double sigma = expected->sigma / expected->length;
+  const double sigma_m = std::max(expected->sigma, expected->common);
+  const double sigma = sigma_m / expected->length;
   // A step that the images did not carry has no rotation of its own either.
   const bool seen = step.status == StepStatus::kOk;
   result.metric = seen && contradicted_ == 0 && sigma <= max_uncertainty_ && !stamps_are_wrong();
   if (!result.metric) return result;
   result.sigma = sigma;
-  result.sigma_m = expected->sigma;
+  result.sigma_m = sigma_m;
   return result;
 }
 

@@ -54,12 +54,13 @@ std::optional<ExpectedLength> Inertia::expect(double begin_s, double end_s) cons
   expected.length = speed_ * time.mean;
   expected.sigma =
       std::hypot(std::hypot(sigma_, acceleration_ * age) * time.mean, speed_ * time.half_range);
+  expected.common = common_ * expected.length;
   expected.least = std::max(0.0, speed_ - reach) * time.least();
   expected.most = (speed_ + reach) * time.most();
   return expected;
 }
 
-void Inertia::tell(double begin_s, double end_s, double length, double sigma) {
+void Inertia::tell(double begin_s, double end_s, double length, double sigma, double common) {
   const double middle = 0.5 * (begin_s + end_s);
   const double seconds = end_s - begin_s;
   if (!(seconds > 0.0) || !std::isfinite(length) || !std::isfinite(sigma)) return;
@@ -78,6 +79,7 @@ void Inertia::tell(double begin_s, double end_s, double length, double sigma) {
   }
   known_ = true;
   time_s_ = middle;
+  common_ = common;
 }
 
 }  // namespace oneac

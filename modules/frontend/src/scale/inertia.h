@@ -13,6 +13,7 @@ struct ExpectedLength {
   double sigma = 0.0;   ///< [m] 1σ
   double least = 0.0;   ///< [m] nothing shorter is possible for a vehicle ...
   double most = 0.0;    ///< [m] ... and nothing longer
+  double common = 0.0;  ///< [m] 1σ that lengths of steps around it share
 
   /// Whether a length [m] with this 1σ [m] can be true.
   [[nodiscard]] bool allows(double length_m, double sigma_m) const;
@@ -52,7 +53,9 @@ class Inertia {
   /// Of the step between two times [s]; empty while no speed is known.
   [[nodiscard]] std::optional<ExpectedLength> expect(double begin_s, double end_s) const;
   /// A step was this long, 1σ, both [m].
-  void tell(double begin_s, double end_s, double length, double sigma);
+  /// @param common  [-] relative 1σ that this length shares with those around it, as the map's
+  /// scale: it does not average out
+  void tell(double begin_s, double end_s, double length, double sigma, double common = 0.0);
   /// An image was taken at the end of this step, whatever is known of its length.
   void tick(double begin_s, double end_s) { clock_.tell(end_s - begin_s); }
   void forget() { known_ = false; }
@@ -64,7 +67,8 @@ class Inertia {
   double memory_s_;
   bool known_ = false;
   double speed_ = 0.0;   ///< [m/s]
-  double sigma_ = 0.0;   ///< [m/s] 1σ
+  double sigma_ = 0.0;   ///< [m/s] 1σ, without what steps share
+  double common_ = 0.0;  ///< [-] relative 1σ that the newest step shares with others
   double time_s_ = 0.0;  ///< [s] to which it belongs: the middle of the newest step
 };
 

@@ -95,8 +95,8 @@ std::optional<MeasuredTravel> road_travel(const RoadPair& road, const TwoView& s
   if (!goes_along(step.T_2_1.t, prior.heading)) return std::nullopt;
   const double direction_sigma =
       directed ? rms(seen.covariance.bottomRightCorner<3, 3>(), kTravelSigma) : kHeadingSigma;
-  step.information =
-      motion_information(rms(seen.covariance.topLeftCorner<3, 3>(), kUntoldTurnSigma), direction_sigma);
+  step.information = motion_information(
+      rms(seen.covariance.topLeftCorner<3, 3>(), kUntoldTurnSigma), direction_sigma);
   step.R_level_cam = prior.first.R_level_cam;
   step.pitch_sigma = std::max(prior.first.pitch_sigma, step.pitch_sigma);
   step.roll_sigma = std::max(prior.first.roll_sigma, step.roll_sigma);

@@ -224,9 +224,10 @@ void Scale::remember(const StepInTime& step, const StepLength& length) {
   weigh_inertia(length);
   if (measured && length.without_inertia) {
     const MeasuredTravel& told = *length.without_inertia;
-    inertia_.tell(step.begin_s, step.end_s, told.length, told.sigma);
+    inertia_.tell(step.begin_s, step.end_s, told.length, told.sigma, common_sigma(told.source));
   } else if (measured && !length.beside_stamps) {
-    inertia_.tell(step.begin_s, step.end_s, length.length, length.sigma_m);
+    inertia_.tell(step.begin_s, step.end_s, length.length, length.sigma_m,
+                  common_sigma(length.source));
   }
   if (length.metric && !length.beside_stamps && step.seconds() > 0.0) {
     last_metric_speed_ = length.length / step.seconds();
@@ -247,6 +248,10 @@ void Scale::remember(const StepInTime& step, const StepLength& length) {
     interval_.reached += step.direct->reach * step.direct->reach * told.length;
   }
   interval_.sigma_m += told.sigma_m;
+}
+
+double Scale::common_sigma(LengthSource source) const {
+  return source == LengthSource::kMap && filter_.is_metric() ? filter_.uncertainty() : 0.0;
 }
 
 /// Inertia that nobody agrees with for too long had a wrong speed.
