@@ -249,6 +249,30 @@ RoadAlignment behind_a_truck(const Drive& drive, RoadStep step) {
   return align_road(RoadImage(first.view()), RoadImage(second.view()), camera_of_road(), step);
 }
 
+/// Smooth asphalt with lane lines that run at a slight angle to the camera's way.
+Paint lane_lines(double angle) {
+  return [=](double x, double z) {
+    const double across = x - std::tan(angle) * z;
+    const bool on_a_line = std::abs(across + 0.9) < 0.05 || std::abs(across - 1.2) < 0.05;
+    return on_a_line ? 150.0 : 90.0;
+  };
+}
+
+TEST(RoadAlignment, LaneLinesThatNeverEndTellNoLength) {
+  for (const double noise : {1.0, 4.0, 8.0}) {
+    for (const double angle : {-0.06, 0.0, 0.03, 0.06}) {
+      Drive drive{lane_lines(angle)};
+      drive.noise = noise;
+      RoadStep step = drive.step();
+      step.length = 1.3 * drive.length;  // where a search begins must not pass for a measurement
+      step.length_sigma = 0.15;
+      const RoadAlignment result = drive.align(step);
+      EXPECT_FALSE(result.status == RoadStatus::kMeasured && result.relative_sigma < 0.1)
+          << noise << ", " << angle << ": " << result.length << " +- " << result.sigma;
+    }
+  }
+}
+
 TEST(RoadAlignment, DoesNotTakeATruckAtConstantGapForARoadThatRests) {
   for (const double contrast : {0.0, 0.1, 1.0}) {  // of the road beside it
     Drive drive{[=, asphalt = asphalt(10)](double x, double z) {

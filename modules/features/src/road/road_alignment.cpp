@@ -153,12 +153,20 @@ void describe_fit(const RoadFit& fit, RoadAlignment& result) {
 }
 
 bool is_seen_near(const RoadFit& fit, const RoadAlignmentOptions& options) {
+  // Lane lines are the same at any length: they tell nothing of it, but no vehicle covers them.
   const auto agrees = [&](std::size_t lane) {
-    return fit.equations[lane].rho >= options.min_correlation && fit.weight[lane] > kClearly;
+    const bool tells = fit.evidence[lane] > 0.0;
+    return fit.equations[lane].rho >= options.min_correlation &&
+           (!tells || fit.weight[lane] > kClearly);
   };
   int agreeing = 0;
-  for (std::size_t lane = 0; lane < kLanes; ++lane) agreeing += agrees(lane) ? 1 : 0;
-  return agreeing >= kLeastNearest && (agrees(0) || agrees(kLanes - 1));
+  bool told = false;
+  for (std::size_t lane = 0; lane < kLanes; ++lane) {
+    if (!agrees(lane)) continue;
+    ++agreeing;
+    told = told || fit.evidence[lane] > 0.0;
+  }
+  return told && agreeing >= kLeastNearest && (agrees(0) || agrees(kLanes - 1));
 }
 
 RoadStatus judge(const std::vector<Candidate>& candidates, const LengthRange& range,

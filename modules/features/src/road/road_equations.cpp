@@ -14,16 +14,26 @@ namespace {
 constexpr double kHuber = 1.5;  // [σ] of a residual: a stain more or less, not a car
 constexpr int kLeastOfLine = kRows / 2;
 constexpr int kLeastOfBlock = kPerBlock / 4;
-// Residual's derivatives by the unknowns, then by the gain.
-constexpr int kWide = kUnknowns + 1;
+// Residual's derivatives by the unknowns, then by a shift of the block across the road and its
+// gain.
+constexpr int kAcross = kUnknowns, kGain = kUnknowns + 1;
+constexpr int kWide = kUnknowns + 2;
 using WideVector = Eigen::Matrix<double, kWide, 1>;
 using WideMatrix = Eigen::Matrix<double, kWide, kWide>;
 
 /// One line along the road: what is seen at its samples, and the derivatives.
 struct Line {
   int count = 0;
-  std::array<float, kRows> t{}, w{};  // grey values of template and image
+  std::array<float, kRows> t{}, w{};          // grey values of template and image
+  std::array<Eigen::Vector2f, kRows> dt, dw;  // [grey/px] their gradients
+  std::array<Eigen::Vector2d, kRows> ut, uw;  // [px] where
+  std::array<double, kRows> moves{};          // [px/height] by the length, up to a factor
   std::array<WideVector, kRows> J;
+
+  /// Direction of the line in an image: a line along the road is seen as one.
+  [[nodiscard]] Eigen::Vector2f along(const std::array<Eigen::Vector2d, kRows>& u) const {
+    return (u[static_cast<std::size_t>(count) - 1] - u[0]).cast<float>().normalized();
+  }
 };
 
 /// Derivatives of a ray's grey value in the image.
@@ -37,23 +47,23 @@ class Derivative {
         mask_(context.mask),
         pixels_(context.image->levels[level]),
         scale_(1.0 / static_cast<double>(1U << level)),
-        c_(1.0 + motion.length * motion.n.dot(motion.s)) {}
+        c_(1.0 + motion.length * motion.n.dot(motion.s)),
+        across_(motion.n.cross(motion.s).normalized()) {}
 
-  bool operator()(const Eigen::Vector3d& ray, float& grey, WideVector& J) const {
+  bool operator()(const Eigen::Vector3d& ray, GreySample& s, Eigen::Vector2d& u,
+                  WideVector& J) const {
     const Eigen::Vector3d y = motion_.R_b_a * ray;
     const double depth = 1.0 / motion_.n.dot(y);
     const Eigen::Vector3d X = depth * c_ * y - motion_.length * motion_.s;
     if (!(depth > 0.0) || !(X.z() > 1e-3)) return false;
-    const Eigen::Vector2d u = camera_.project({X.x() / X.z(), X.y() / X.z()});
+    u = camera_.project({X.x() / X.z(), X.y() / X.z()});
     const Eigen::Vector2d there = scale_ * u;
     if (!inside_level(pixels_, there.x() - 1.0, there.y() - 1.0) ||
         !inside_level(pixels_, there.x() + 1.0, there.y() + 1.0) ||
         !unmasked(mask_, u.x(), u.y())) {
       return false;
     }
-    const GreySample s =
-        sample_at(pixels_, static_cast<float>(there.x()), static_cast<float>(there.y()));
-    grey = s.grey;
+    s = sample_at(pixels_, static_cast<float>(there.x()), static_cast<float>(there.y()));
     fill(s, y, depth, X, J);
     return true;
   }
@@ -74,6 +84,7 @@ class Derivative {
     J.segment<3>(3) = X.cross(h);
     J(6) = motion_.length * h.dot(tangents_.travel.col(0));
     J(7) = motion_.length * h.dot(tangents_.travel.col(1));
+    J(kAcross) = h.dot(across_);
   }
 
   const RoadMotion& motion_;
@@ -83,15 +94,22 @@ class Derivative {
   const PyramidLevel& pixels_;
   double scale_;
   double c_;
+  Eigen::Vector3d across_;
 };
 
-void read_line(const RoadGrid& grid, const std::vector<float>& values, const Derivative& derivative,
-               std::size_t first, Line& line) {
+void read_line(const RoadGrid& grid, const std::vector<GreySample>& values,
+               const Derivative& derivative, std::size_t first, Line& line) {
   line.count = 0;
+  GreySample there{};
   for (std::size_t i = first; i < first + kRows; ++i) {
     const auto k = static_cast<std::size_t>(line.count);
-    if (!grid.usable[i] || !derivative(grid.rays[i], line.w[k], line.J[k])) continue;
-    line.t[k] = values[i];
+    if (!grid.usable[i] || !derivative(grid.rays[i], there, line.uw[k], line.J[k])) continue;
+    line.t[k] = values[i].grey;
+    line.w[k] = there.grey;
+    line.dt[k] = {values[i].du, values[i].dv};
+    line.dw[k] = {there.du, there.dv};
+    line.ut[k] = grid.u[i];
+    line.moves[k] = 1.0 / grid.rays[i].squaredNorm();
     ++line.count;
   }
 }
@@ -101,8 +119,27 @@ struct Sums {
   WideMatrix H = WideMatrix::Zero();
   WideVector g = WideVector::Zero();
   double weights = 0.0, squares = 0.0, tt = 0.0, ww = 0.0, tw = 0.0, lagged = 0.0, plain = 0.0;
+  double slopes_tt = 0.0, slopes_ww = 0.0, slopes_tw = 0.0;  // along the road
   int samples = 0;
+
+  /// [-] of the squared slopes along the road: what both images have. The rest is noise.
+  [[nodiscard]] double coherence() const {
+    const double both = std::sqrt(slopes_tt * slopes_ww);
+    return both > 0.0 ? std::clamp(slopes_tw / both, 0.0, 1.0) : 0.0;
+  }
 };
+
+void add_slopes(const Line& line, Sums& sums) {
+  const Eigen::Vector2f along_t = line.along(line.ut), along_w = line.along(line.uw);
+  for (std::size_t k = 0; k < static_cast<std::size_t>(line.count); ++k) {
+    // A slope tells the more of the length the farther it moves in the image.
+    const double t = line.moves[k] * line.dt[k].dot(along_t);
+    const double w = line.moves[k] * line.dw[k].dot(along_w);
+    sums.slopes_tt += t * t;
+    sums.slopes_ww += w * w;
+    sums.slopes_tw += t * w;
+  }
+}
 
 /// Takes mean and slope out of the grey values of a line.
 void straighten(const Line& line, std::array<float, kRows>& values) {
@@ -147,6 +184,7 @@ struct LineSums {
 
 /// Adds a line, its bias and slope eliminated.
 void add_line(Line& line, double gain, double scale, Sums& sums) {
+  add_slopes(line, sums);
   straighten(line, line.t);
   straighten(line, line.w);
   LineSums here;
@@ -154,7 +192,7 @@ void add_line(Line& line, double gain, double scale, Sums& sums) {
   for (std::size_t k = 0; k < static_cast<std::size_t>(line.count); ++k) {
     const double t = line.t[k], w = line.w[k], r = w - gain * t;
     const double weight = scale > 0.0 ? std::min(1.0, kHuber * scale / (std::abs(r) + 1e-9)) : 1.0;
-    line.J[k](kUnknowns) = -t;
+    line.J[k](kGain) = -t;
     here.add(line.J[k], r, weight, static_cast<double>(k) / kRows - 0.5);
     sums.tt += t * t;
     sums.ww += w * w;
@@ -173,17 +211,35 @@ void add_line(Line& line, double gain, double scale, Sums& sums) {
   sums.samples += line.count;
 }
 
-/// Eliminates the gain (Schur complement) and takes the statistics.
+/// Shift across the road and gain eliminated (Schur complement): what a block sees of edges that
+/// only run obliquely is the same by a shift aside as by another length.
+void eliminate_own(const Sums& sums, double noise, BlockEquations& block) {
+  const WideMatrix H = sums.H.selfadjointView<Eigen::Lower>();
+  Eigen::Matrix2d own = H.bottomRightCorner<2, 2>();
+  own(0, 0) += 1e-6 * own(0, 0) + 1e-9;
+  own(1, 1) += noise;
+  const Eigen::Matrix<double, kUnknowns, 2> cross = H.topRightCorner<kUnknowns, 2>();
+  const Eigen::Matrix<double, kUnknowns, 2> eliminate = cross * own.inverse();
+  block.H = H.topLeftCorner<kUnknowns, kUnknowns>() - eliminate * cross.transpose();
+  block.g = sums.g.head<kUnknowns>() - eliminate * sums.g.tail<2>();
+}
+
+/// Noise has slopes in every direction, and they would pass for texture that tells the length.
+void discount_noise(const Sums& sums, BlockEquations& block) {
+  const double of_noise = (1.0 - sums.coherence()) * sums.H(0, 0);
+  const double told = block.H(0, 0) > of_noise ? 1.0 - of_noise / block.H(0, 0) : 0.0;
+  block.H *= told;
+  block.g *= told;
+}
+
+/// What a block says, and its statistics.
 BlockEquations finish(const Sums& sums, double noise_grey, int stride) {
   BlockEquations block;
   block.samples = sums.samples;
   if (sums.samples < kLeastOfBlock / stride || !(sums.weights > 0.0)) return block;
-  const WideMatrix H = sums.H.selfadjointView<Eigen::Lower>();
   const double noise = noise_grey * noise_grey * sums.samples;
-  const double hh = H(kUnknowns, kUnknowns) + noise;
-  const RoadVector cross = H.block<kUnknowns, 1>(0, kUnknowns);
-  block.H = H.topLeftCorner<kUnknowns, kUnknowns>() - cross * cross.transpose() / hh;
-  block.g = sums.g.head<kUnknowns>() - cross * (sums.g(kUnknowns) / hh);
+  eliminate_own(sums, noise, block);
+  discount_noise(sums, block);
   block.weights = sums.weights;
   block.variance = std::max(sums.squares, 0.0) / sums.weights + noise_grey * noise_grey;
   block.gain = std::clamp((sums.tw + noise) / (sums.tt + noise), 0.2, 5.0);
@@ -205,7 +261,7 @@ RoadMotion moved(const RoadMotion& start, const RoadTangents& tangents, const Ro
 }
 
 RoadEquations road_equations(const RoadContext& context, const RoadGrid& grid,
-                             const std::vector<float>& values, std::size_t level,
+                             const std::vector<GreySample>& values, std::size_t level,
                              const RoadMotion& motion, const RoadTangents& tangents,
                              const RoadEquations& before, double noise_grey, int stride) {
   const Derivative derivative(context, motion, tangents, level);

@@ -26,7 +26,8 @@ struct RoadTangents {
 
 /// What one block of road says about the unknowns.
 struct BlockEquations {
-  RoadMatrix H = RoadMatrix::Zero();  ///< Σ w J Jᵀ, gain and the bias of each line eliminated
+  /// Σ w J Jᵀ; gain, a shift across the road and each line's bias eliminated, noise discounted
+  RoadMatrix H = RoadMatrix::Zero();
   RoadVector g = RoadVector::Zero();  ///< Σ w J r: the step is −H⁻¹ g
   double variance = 0.0;              ///< [grey²] of a residual
   double weights = 0.0;               ///< Σ w
@@ -41,7 +42,7 @@ using RoadEquations = std::array<BlockEquations, kBlocks>;
 /// @param before  equations of the step before, for gain and scale of the weights; gain ≤ 0: none
 /// @param stride  use every so many-th line along the road
 [[nodiscard]] RoadEquations road_equations(const RoadContext& context, const RoadGrid& grid,
-                                           const std::vector<float>& values, std::size_t level,
+                                           const std::vector<GreySample>& values, std::size_t level,
                                            const RoadMotion& motion, const RoadTangents& tangents,
                                            const RoadEquations& before, double noise_grey,
                                            int stride);

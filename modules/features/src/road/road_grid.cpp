@@ -79,4 +79,19 @@ std::vector<float> template_values(const RoadContext& context, const RoadGrid& g
   return values;
 }
 
+std::vector<GreySample> template_samples(const RoadContext& context, const RoadGrid& grid,
+                                         std::size_t level) {
+  const PyramidLevel& pixels = context.template_image->levels[level];
+  const double scale = 1.0 / static_cast<double>(1U << level);
+  std::vector<GreySample> samples(grid.rays.size(), GreySample{});
+  for (std::size_t i = 0; i < samples.size(); ++i) {
+    if (!grid.usable[i]) continue;
+    const Eigen::Vector2d u = scale * grid.u[i];
+    if (!inside_level(pixels, u.x() - 1.0, u.y() - 1.0)) continue;
+    if (!inside_level(pixels, u.x() + 1.0, u.y() + 1.0)) continue;
+    samples[i] = sample_at(pixels, static_cast<float>(u.x()), static_cast<float>(u.y()));
+  }
+  return samples;
+}
+
 }  // namespace oneac::internal

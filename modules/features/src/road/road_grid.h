@@ -94,5 +94,8 @@ inline GreySample sample_at(const PyramidLevel& level, float u, float v) {
 /// Grey values of the template at a level, NaN-free; samples that are not usable are 0.
 [[nodiscard]] std::vector<float> template_values(const RoadContext& context, const RoadGrid& grid,
                                                  std::size_t level);
+/// The same with gradients.
+[[nodiscard]] std::vector<GreySample> template_samples(const RoadContext& context,
+                                                       const RoadGrid& grid, std::size_t level);
 
 }  // namespace oneac::internal

@@ -100,7 +100,7 @@ RoadVector solve_step(const RoadPrior& prior, double redundant, double uneven, R
 /// Iterates at one level. @return the last step was small
 bool polish_level(const RoadContext& context, const RoadGrid& grid, std::size_t level,
                   const RoadPrior& prior, const RoadAlignmentOptions& options, RoadFit& fit) {
-  const std::vector<float> values = template_values(context, grid, level);
+  const std::vector<GreySample> values = template_samples(context, grid, level);
   const double noise = options.noise_grey / static_cast<double>(1U << level);
   for (BlockEquations& block : fit.equations) block.variance = 0.0;
   double size = 0.0;

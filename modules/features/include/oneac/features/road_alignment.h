@@ -149,11 +149,12 @@ struct RoadAlignment {
 /// Length of a step in camera heights from all of the road that two images share.
 ///
 /// Model: road n·X = 1 in the first view; H = R + |t| t̂ nᵀ; grey values of a block of road are the
-/// same up to gain, and up to a bias per line along the road, so that lane lines and shadows that
-/// run along the road, which tell nothing, count nothing. Evidence of a length is the sum over 15
-/// blocks of ½ log 1/(1 − ρ²); its maximum is searched along |t|, then polished by Gauss-Newton
-/// over |t|, n, R and t̂ with what is given as prior. Blocks that contradict (cars, kerbs) lose
-/// their weight. See docs/decisions/road-alignment.md.
+/// same up to gain, a shift across the road, and a bias per line along it, so that lane lines and
+/// shadows that run along the road or obliquely, which tell nothing, count nothing; slopes that
+/// only one of the images has are noise, and count nothing either. Evidence of a length is the sum
+/// over 15 blocks of ½ log 1/(1 − ρ²); its maximum is searched along |t|, then polished by
+/// Gauss-Newton over |t|, n, R and t̂ with what is given as prior. Blocks that contradict (cars,
+/// kerbs) lose their weight. See docs/decisions/road-alignment.md.
 /// @param mask  dark (< 128) where pixels are not used (bonnet); empty: all are
 /// @param workers  who shares the work; none: the calling thread alone. The same to the last bit
 /// @throws std::invalid_argument  images or mask of another size than the camera's, or a bad field
