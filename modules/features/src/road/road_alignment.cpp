@@ -153,20 +153,19 @@ void describe_fit(const RoadFit& fit, RoadAlignment& result) {
 }
 
 bool is_seen_near(const RoadFit& fit, const RoadAlignmentOptions& options) {
-  // Lane lines are the same at any length: they tell nothing of it, but no vehicle covers them.
+  const auto correlates = [&](std::size_t lane) {
+    return fit.equations[lane].rho >= options.min_correlation;
+  };
   const auto agrees = [&](std::size_t lane) {
-    const bool tells = fit.evidence[lane] > 0.0;
-    return fit.equations[lane].rho >= options.min_correlation &&
-           (!tells || fit.weight[lane] > kClearly);
+    return correlates(lane) && fit.weight[lane] > kClearly;
+  };
+  // A lane line is the same at any length: it tells nothing, but no vehicle covers it.
+  const auto is_open = [&](std::size_t lane) {
+    return agrees(lane) || (correlates(lane) && !(fit.evidence[lane] > 0.0));
   };
   int agreeing = 0;
-  bool told = false;
-  for (std::size_t lane = 0; lane < kLanes; ++lane) {
-    if (!agrees(lane)) continue;
-    ++agreeing;
-    told = told || fit.evidence[lane] > 0.0;
-  }
-  return told && agreeing >= kLeastNearest && (agrees(0) || agrees(kLanes - 1));
+  for (std::size_t lane = 0; lane < kLanes; ++lane) agreeing += agrees(lane) ? 1 : 0;
+  return agreeing >= kLeastNearest && (is_open(0) || is_open(kLanes - 1));
 }
 
 RoadStatus judge(const std::vector<Candidate>& candidates, const LengthRange& range,
