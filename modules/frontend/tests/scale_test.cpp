@@ -167,6 +167,19 @@ TEST(Scale, ARestThatMayBeTheBonnetsIsNotMetricBeforeASpeedIsKnown) {
   EXPECT_TRUE(rest_of_a_drive(true, true, false).metric) << "the bonnet is masked, or is none";
 }
 
+TEST(Scale, ACreepThatMayBeTheBonnetsIsNotMetricBeforeASpeedIsKnown) {
+  const auto first_step = [](double length, bool car_is_known) {
+    Scale scale = started(by("height"));
+    StepInTime first = step(StepStatus::kOk, 10.0, 1.0);
+    first.direct = MeasuredTravel{length, 0.004, LengthSource::kRoadImage, true};
+    first.car_is_known = car_is_known;
+    return scale.length_of(first, {});
+  };
+  EXPECT_FALSE(first_step(0.04, false).metric);
+  EXPECT_TRUE(first_step(0.04, true).metric);
+  EXPECT_TRUE(first_step(0.4, false).metric) << "no bonnet rests by so much noise";
+}
+
 TEST(Scale, ImagesThatShowTravelShowNoRestBeforeASpeedIsKnown) {
   Scale scale = started(by("height"));
   StepInTime resting = rest(MeasuredTravel{0.001, 0.004, LengthSource::kRoadImage, true});

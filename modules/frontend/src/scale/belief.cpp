@@ -21,6 +21,7 @@ constexpr double kMoves = 2.5;
 // [σ] up to which two lengths of one step are the same.
 constexpr double kAgree = 2.0;
 constexpr double kStillness = 0.02;
+constexpr double kCreep = 0.15;  // [m] ten times what noise makes of a bonnet
 // [m or heights] a rest that is known no better than this says nothing in metres.
 constexpr double kSureRest = 0.05;
 // [-] share of the points that has to rest: of a car that stood (a bus may fill the picture, and a
@@ -114,12 +115,21 @@ StepLength Scale::by_itself(const StepInTime& step) const {
   return told;
 }
 
+/// While no speed is known, a bonnet that rests is a creeping car, by noise.
+bool Scale::may_be_the_car(const StepLength& told, const StepInTime& step) const {
+  if (step.car_is_known || told.source == LengthSource::kMap) return false;
+  return told.length < kCreep && !inertia_.expect(step.begin_s, step.end_s);
+}
+
 StepLength Scale::decided(const StepInTime& step,
                           const std::vector<LengthMeasurement>& measured) const {
   if (step.status == StepStatus::kNoMotion) return at_rest(step);
   std::vector<StepLength> told;
   if (!measured.empty()) told.push_back(stated(measured.front()));
   if (const StepLength direct = by_itself(step); direct.metric) told.push_back(direct);
+  told.erase(std::remove_if(told.begin(), told.end(),
+                            [&](const StepLength& one) { return may_be_the_car(one, step); }),
+             told.end());
   StepLength result = chosen(told, step);
   // A map that is too unsure to be called metric knows what cannot be.
   if (result.metric && told.size() == 2 && !told.front().metric &&
@@ -264,7 +274,7 @@ StepLength Scale::at_rest(const StepInTime& step) const {
   result.source = LengthSource::kStanding;
   // While no speed is known, a bonnet rests as a road at rest does: before anything has moved it
   // takes a while of rest to know, afterwards that the car's own parts are known.
-  const bool may_be_the_car = !expected && !(moved_ ? step.car_is_known : step.began_at_rest);
+  const bool unknown = !expected && !(moved_ ? step.car_is_known : step.began_at_rest);
   // Unless the car stood a moment ago most of the picture has to rest: a few points do by chance,
   // like the edges of the blocks of a compressed picture.
   const bool stood = expected && speaks_for_rest(*expected);
@@ -279,7 +289,7 @@ StepLength Scale::at_rest(const StepInTime& step) const {
     }
     // Of a car that was too fast to be there already what rests is something else.
     const bool too_soon = expected && !could_stand(expected);
-    result.metric = !moves && told->sigma <= kSureRest && !may_be_the_car && !few_rest && !too_soon;
+    result.metric = !moves && told->sigma <= kSureRest && !unknown && !few_rest && !too_soon;
     result.sigma_m = std::hypot(told->sigma, told->length);  // what it may have crept
     return result;
   }

@@ -194,6 +194,7 @@ class Scale {
   [[nodiscard]] StepLength held(const StepInTime& step) const;
   [[nodiscard]] StepLength at_rest(const StepInTime& step) const;
   [[nodiscard]] StepLength by_itself(const StepInTime& step) const;
+  [[nodiscard]] bool may_be_the_car(const StepLength& told, const StepInTime& step) const;
   /// What the length of such a step shares with those around it: relative 1σ.
   [[nodiscard]] double common_sigma(LengthSource source) const;
   void weigh_inertia(const StepLength& length);
