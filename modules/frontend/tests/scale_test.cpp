@@ -658,6 +658,34 @@ TEST(Scale, CreepingDoesNotLoseTheScale) {
   EXPECT_TRUE(scale.is_metric());
 }
 
+TEST(Scale, ASpeedThatTheMapTaughtMakesNoLengthSurerThanTheMapsScale) {
+  Scale scale = mapped();
+  const double shared = scale.uncertainty();
+  StepLength helped;
+  for (int i = 1; i <= 20; ++i) {
+    LengthMeasurement unsure = carried(1.0);
+    unsure.sigma = 0.03;
+    helped = scale.length_of(step(StepStatus::kOk, 10.0 + 0.1 * i, 1.0), {unsure});
+  }
+  ASSERT_TRUE(helped.metric);
+  ASSERT_TRUE(helped.without_inertia.has_value());
+  EXPECT_GE(helped.sigma, shared);
+}
+
+TEST(Scale, ACreepStatesItsSigmaInProportionHoweverShort) {
+  Scale scale = started(by("height"));
+  const double way = 0.004;
+  for (int i = 0; i < 5; ++i) {
+    const StepInTime next = step(StepStatus::kOk, 10.0 + 0.1 * i, way);
+    static_cast<void>(scale.length_of(next, {{way, 0.5, LengthSource::kRoad, 50}}));
+  }
+  LengthMeasurement unsure{way, 1.5, LengthSource::kRoad, 50};
+  const StepLength creep = scale.length_of(step(StepStatus::kOk, 10.5, way), {unsure});
+  ASSERT_TRUE(creep.metric);
+  ASSERT_TRUE(creep.without_inertia.has_value());
+  EXPECT_NEAR(creep.sigma * creep.length, creep.sigma_m, 1e-3 * creep.sigma_m);
+}
+
 TEST(ShutterClock, TakesARegularShutterForGrantedBesideStampsThatJitter) {
   ShutterClock clock;
   EXPECT_EQ(clock.between(0.08).half_range, 0.0) << "nothing is known yet";

@@ -21,7 +21,8 @@ constexpr double kMoves = 2.5;
 // [σ] up to which two lengths of one step are the same.
 constexpr double kAgree = 2.0;
 constexpr double kStillness = 0.02;
-constexpr double kCreep = 0.15;  // [m] ten times what noise makes of a bonnet
+constexpr double kNothing = 1e-9;  // [m] a shorter step is no divisor
+constexpr double kCreep = 0.15;    // [m] ten times what noise makes of a bonnet
 // [m or heights] a rest that is known no better than this says nothing in metres.
 constexpr double kSureRest = 0.05;
 // [-] share of the points that has to rest: of a car that stood (a bus may fill the picture, and a
@@ -244,7 +245,7 @@ StepLength Scale::steadied(const StepLength& told, const ExpectedLength& expecte
   // The speed was learned from lengths of the same map, or the same road.
   const double shared = common_sigma(told.source) * told.length;
   result.sigma_m = std::max(result.sigma_m, std::min(shared, expected.common));
-  result.sigma = result.sigma_m / std::max(result.length, kStillness);
+  result.sigma = result.sigma_m / std::max(result.length, kNothing);
   return result;
 }
 
@@ -304,7 +305,7 @@ StepLength Scale::at_rest(const StepInTime& step) const {
 }
 
 double Scale::allowed_sigma(double length) const {
-  return std::max(max_uncertainty_, kSureWay / std::max(length, kSureWay));
+  return std::max(max_uncertainty_, kSureWay / std::max(length, kNothing));
 }
 
 StepLength Scale::stated(const LengthMeasurement& measured) const {
