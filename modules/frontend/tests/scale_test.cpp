@@ -658,20 +658,6 @@ TEST(Scale, CreepingDoesNotLoseTheScale) {
   EXPECT_TRUE(scale.is_metric());
 }
 
-TEST(Scale, ASpeedThatTheMapTaughtMakesNoLengthSurerThanTheMapsScale) {
-  Scale scale = mapped();
-  const double shared = scale.uncertainty();
-  StepLength helped;
-  for (int i = 1; i <= 20; ++i) {
-    LengthMeasurement unsure = carried(1.0);
-    unsure.sigma = 0.03;
-    helped = scale.length_of(step(StepStatus::kOk, 10.0 + 0.1 * i, 1.0), {unsure});
-  }
-  ASSERT_TRUE(helped.metric);
-  ASSERT_TRUE(helped.without_inertia.has_value());
-  EXPECT_GE(helped.sigma, shared);
-}
-
 TEST(Scale, ACreepStatesItsSigmaInProportionHoweverShort) {
   Scale scale = started(by("height"));
   const double way = 0.004;
@@ -713,6 +699,15 @@ TEST(Inertia, AllowsTheStepOfARegularShutterWhateverTheStampSays) {
   EXPECT_TRUE(expected->allows(0.25, 0.003));
   EXPECT_TRUE(expected->allows(0.39, 0.003));
   EXPECT_FALSE(expected->allows(0.1, 0.003));
+}
+
+TEST(Inertia, KnowsWhatTheLengthsThatTaughtItShare) {
+  Inertia inertia({}, 2.0);
+  for (int i = 0; i < 20; ++i) inertia.tell(0.1 * i, 0.1 * (i + 1), 1.0, 0.02, 0.05);
+  const auto expected = inertia.expect(2.0, 2.1);
+  ASSERT_TRUE(expected.has_value());
+  EXPECT_LT(expected->sigma, 0.04) << "twenty lengths average out ...";
+  EXPECT_NEAR(expected->common, 0.05, 1e-3) << "... but for what they share";
 }
 
 TEST(Inertia, ExpectsNothingBeforeASpeedWasTold) {
