@@ -299,7 +299,7 @@ void run(const Settings& s) {
     }
     const double before = thread_cpu_ms();
     const RoadAlignment result =
-        align_road(first.road, second.road, camera, step, mask.view(), options);
+        align_road({first.road, second.road, mask.view()}, camera, step, options);
     tally.ms.push_back(thread_cpu_ms() - before);
     ++tally.status[to_string(result.status)];
     const double metres = height * result.length;

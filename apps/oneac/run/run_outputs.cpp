@@ -115,7 +115,7 @@ std::string why_wheels_tell_nothing(const DriveRecord& record) {
            fixed_text(record.frames.back().time_s, kSpanDecimals) + " s)";
   }
   if (told.empty()) return "there is no image";
-  const std::string beside =
+  std::string beside =
       beside_images("the wheels", "do", {told.front().time_s, told.back().time_s}, record);
   if (!beside.empty()) return beside;
   return "the wheels told no speeds above walking pace that agree with the images for twenty "

@@ -76,8 +76,8 @@ struct Drive {
   }
   [[nodiscard]] RoadAlignment align(const RoadStep& step, const ImageView& mask = {}) const {
     const GreyImage first = view(false), second = view(true);
-    return align_road(RoadImage(first.view()), RoadImage(second.view()), camera_of_road(), step,
-                      mask);
+    return align_road({RoadImage(first.view()), RoadImage(second.view()), mask}, camera_of_road(),
+                      step);
   }
 };
 
@@ -159,7 +159,7 @@ TEST(RoadAlignment, MeasuresBackwards) {
   step.T_2_1 = {back.R, back.t.normalized()};
   step.R_level_cam = levelling_rotation(drive.tilt) * drive.pose().R.transpose();
   const RoadAlignment result =
-      align_road(RoadImage(second.view()), RoadImage(first.view()), camera_of_road(), step);
+      align_road({RoadImage(second.view()), RoadImage(first.view())}, camera_of_road(), step);
   expect_true(result, drive.length);
 }
 
@@ -228,7 +228,7 @@ TEST(RoadAlignment, IsNotPulledByACarOnPartOfTheRoad) {
       second.row(v)[u] = grey;
     }
   }
-  const RoadAlignment result = align_road(RoadImage(with_car.view()), RoadImage(second.view()),
+  const RoadAlignment result = align_road({RoadImage(with_car.view()), RoadImage(second.view())},
                                           camera_of_road(), drive.step());
   expect_true(result, drive.length);
 }
@@ -246,7 +246,7 @@ RoadAlignment behind_a_truck(const Drive& drive, RoadStep step) {
     }
   }
   step.T_2_1 = {Eigen::Matrix3d::Identity(), {0.0, 0.0, -1.0}};
-  return align_road(RoadImage(first.view()), RoadImage(second.view()), camera_of_road(), step);
+  return align_road({RoadImage(first.view()), RoadImage(second.view())}, camera_of_road(), step);
 }
 
 /// Smooth asphalt with lane lines that run at a slight angle to the camera's way.
@@ -303,8 +303,9 @@ TEST(RoadAlignment, LeavesOutWhatIsMasked) {
       mask.row(v)[u] = 0;
     }
   }
-  const RoadAlignment result = align_road(RoadImage(first.view()), RoadImage(second.view()),
-                                          camera_of_road(), drive.step(), mask.view());
+  const RoadAlignment result =
+      align_road({RoadImage(first.view()), RoadImage(second.view()), mask.view()}, camera_of_road(),
+                 drive.step());
   expect_true(result, drive.length);
 }
 
@@ -312,7 +313,7 @@ TEST(RoadAlignment, SaysThatUnrelatedImagesDoNotCorrelate) {
   const Drive one{asphalt(11)}, other{asphalt(12)};
   const GreyImage first = one.view(false), second = other.view(true);
   const RoadAlignment result =
-      align_road(RoadImage(first.view()), RoadImage(second.view()), camera_of_road(), one.step());
+      align_road({RoadImage(first.view()), RoadImage(second.view())}, camera_of_road(), one.step());
   EXPECT_NE(result.status, RoadStatus::kMeasured) << result.length << " +- " << result.sigma;
 }
 
@@ -327,8 +328,8 @@ TEST(RoadAlignment, GivesTheSameBytesAtAnyThreadCount) {
   const GreyImage first = drive.view(false), second = drive.view(true);
   const auto align = [&](int threads) {
     Workers workers(threads);
-    return align_road(RoadImage(first.view()), RoadImage(second.view()), camera_of_road(),
-                      drive.step(), {}, {}, &workers);
+    return align_road({RoadImage(first.view()), RoadImage(second.view())}, camera_of_road(),
+                      drive.step(), {}, &workers);
   };
   const RoadAlignment alone = align(1);
   ASSERT_EQ(alone.status, RoadStatus::kMeasured);
@@ -347,9 +348,9 @@ TEST(RoadAlignment, RefusesMisuse) {
   RoadStep step = drive.step();
   PinholeCamera other = camera_of_road();
   other.width = 320;
-  EXPECT_THROW(static_cast<void>(align_road(image, image, other, step)), std::invalid_argument);
+  EXPECT_THROW(static_cast<void>(align_road({image, image}, other, step)), std::invalid_argument);
   step.T_2_1.t.setZero();
-  EXPECT_THROW(static_cast<void>(align_road(image, image, camera_of_road(), step)),
+  EXPECT_THROW(static_cast<void>(align_road({image, image}, camera_of_road(), step)),
                std::invalid_argument);
   RoadAlignmentOptions options;
   options.farthest = 1.0;

@@ -45,15 +45,15 @@ struct Problem {
   bool forward = true;  ///< the template is the second view, which sees road of the first nearer
 };
 
-Problem make_problem(const RoadImage& first, const RoadImage& second, const PinholeCamera& camera,
-                     const RoadStep& step, const ImageView& mask,
+Problem make_problem(const RoadViews& views, const PinholeCamera& camera, const RoadStep& step,
                      const RoadAlignmentOptions& options) {
   const Eigen::Vector3d direction = step.T_2_1.t.normalized();
   const Eigen::Vector3d goes = step.R_level_cam * (step.T_2_1.R.transpose() * -direction);
   Problem problem;
   problem.forward = goes.z() >= 0.0;
-  const RoadImage &a = problem.forward ? second : first, &b = problem.forward ? first : second;
-  problem.context = {&a.pyramid(), &b.pyramid(), camera, mask, nullptr};
+  const RoadImage& a = problem.forward ? views.second : views.first;
+  const RoadImage& b = problem.forward ? views.first : views.second;
+  problem.context = {&a.pyramid(), &b.pyramid(), camera, views.mask, nullptr};
   problem.prior = make_prior(step, problem.forward, direction, options);
   const Eigen::Matrix3d R_level_b =
       problem.forward ? step.R_level_cam : step.R_level_cam * step.T_2_1.R.transpose();
@@ -265,18 +265,17 @@ void RoadAlignmentOptions::validate() const {
   require(farthest > nearest, "road.farthest", farthest, "more than nearest");
 }
 
-RoadAlignment align_road(const RoadImage& first, const RoadImage& second,
-                         const PinholeCamera& camera, const RoadStep& step, const ImageView& mask,
+RoadAlignment align_road(const RoadViews& views, const PinholeCamera& camera, const RoadStep& step,
                          const RoadAlignmentOptions& options, Workers* workers) {
   options.validate();
   step.validate();
   RoadAlignment result;
   result.T_2_1 = {step.T_2_1.R, step.T_2_1.t.normalized()};
-  if (first.empty() || second.empty()) return result;
-  require_size(mask, camera, first);
-  require_size(mask, camera, second);
+  if (views.first.empty() || views.second.empty()) return result;
+  require_size(views.mask, camera, views.first);
+  require_size(views.mask, camera, views.second);
   Workers alone;
-  Problem problem = make_problem(first, second, camera, step, mask, options);
+  Problem problem = make_problem(views, camera, step, options);
   problem.context.workers = workers != nullptr ? workers : &alone;
   return align(problem, step, options, result);
 }

@@ -260,23 +260,22 @@ RoadMotion moved(const RoadMotion& start, const RoadTangents& tangents, const Ro
   return motion;
 }
 
-RoadEquations road_equations(const RoadContext& context, const RoadGrid& grid,
-                             const std::vector<GreySample>& values, std::size_t level,
+RoadEquations road_equations(const RoadContext& context, const RoadGrid& grid, const RoadLook& look,
                              const RoadMotion& motion, const RoadTangents& tangents,
-                             const RoadEquations& before, double noise_grey, int stride) {
-  const Derivative derivative(context, motion, tangents, level);
+                             const RoadEquations& before) {
+  const Derivative derivative(context, motion, tangents, look.level);
   RoadEquations equations;
   context.workers->share(kBlocks, [&](std::size_t block, std::size_t) {
     Line line;
     Sums sums;
     const double gain = before[block].gain;
     const double scale = std::sqrt(before[block].variance);
-    for (int column = 0; column < kColumns; column += stride) {
+    for (int column = 0; column < kColumns; column += look.stride) {
       const auto first = block * kPerBlock + static_cast<std::size_t>(column * kRows);
-      read_line(grid, values, derivative, first, line);
+      read_line(grid, look.values, derivative, first, line);
       if (line.count >= kLeastOfLine) add_line(line, gain, scale, sums);
     }
-    equations[block] = finish(sums, noise_grey, stride);
+    equations[block] = finish(sums, look.noise_grey, look.stride);
   });
   return equations;
 }

@@ -100,13 +100,13 @@ RoadVector solve_step(const RoadPrior& prior, double redundant, double uneven, R
 /// Iterates at one level. @return the last step was small
 bool polish_level(const RoadContext& context, const RoadGrid& grid, std::size_t level,
                   const RoadPrior& prior, const RoadAlignmentOptions& options, RoadFit& fit) {
-  const std::vector<GreySample> values = template_samples(context, grid, level);
-  const double noise = options.noise_grey / static_cast<double>(1U << level);
+  const RoadLook look{level, template_samples(context, grid, level),
+                      options.noise_grey / static_cast<double>(1U << level),
+                      level == 0 ? kFineStride : kCoarseStride};
   for (BlockEquations& block : fit.equations) block.variance = 0.0;
   double size = 0.0;
   for (int i = 0; i < kSteps; ++i) {
-    fit.equations = road_equations(context, grid, values, level, fit.motion, prior.tangents,
-                                   fit.equations, noise, level == 0 ? kFineStride : kCoarseStride);
+    fit.equations = road_equations(context, grid, look, fit.motion, prior.tangents, fit.equations);
     const double redundant = redundancy(fit.equations);
     const double uneven = options.unevenness * std::max(fit.motion.length, 0.05);
     RoadVector step = solve_step(prior, redundant, uneven, fit);

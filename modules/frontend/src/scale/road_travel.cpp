@@ -105,7 +105,7 @@ std::optional<MeasuredTravel> road_travel(const RoadPair& road, const TwoView& s
   RoadAlignmentOptions options;
   options.half_width = std::min(options.half_width, kStrip_m / height);
   const RoadAlignment aligned =
-      align_road(road.first, road.second, road.camera, step, road.mask, options, road.workers);
+      align_road({road.first, road.second, road.mask}, road.camera, step, options, road.workers);
   if (aligned.status != RoadStatus::kMeasured) return std::nullopt;
   const double sigma = std::max(aligned.sigma, kLeastSigma);
   const double reach = kBeyond * sigma;  // the fit may leave what was searched

@@ -146,6 +146,12 @@ struct RoadAlignment {
   int textured = 0;    ///< blocks with texture
 };
 
+/// Two images of a road.
+struct RoadViews {
+  RoadImage first, second;
+  ImageView mask = {};  ///< dark (< 128) where pixels of both are not used (bonnet); empty: all are
+};
+
 /// Length of a step in camera heights from all of the road that two images share.
 ///
 /// Model: road n·X = 1 in the first view; H = R + |t| t̂ nᵀ; grey values of a block of road are the
@@ -155,13 +161,11 @@ struct RoadAlignment {
 /// over 15 blocks of ½ log 1/(1 − ρ²); its maximum is searched along |t|, then polished by
 /// Gauss-Newton over |t|, n, R and t̂ with what is given as prior. Blocks that contradict (cars,
 /// kerbs) lose their weight. See docs/decisions/road-alignment.md.
-/// @param mask  dark (< 128) where pixels are not used (bonnet); empty: all are
 /// @param workers  who shares the work; none: the calling thread alone. The same to the last bit
 /// @throws std::invalid_argument  images or mask of another size than the camera's, or a bad field
 /// @cost   2 to 3 ms at 1242×375; pure, thread-safe, deterministic
-[[nodiscard]] RoadAlignment align_road(const RoadImage& first, const RoadImage& second,
-                                       const PinholeCamera& camera, const RoadStep& step,
-                                       const ImageView& mask = {},
+[[nodiscard]] RoadAlignment align_road(const RoadViews& views, const PinholeCamera& camera,
+                                       const RoadStep& step,
                                        const RoadAlignmentOptions& options = {},
                                        Workers* workers = nullptr);
 
