@@ -71,14 +71,14 @@ std::vector<Candidate> candidates_at(const Problem& problem, const RoadGrid& gri
                                      std::size_t coarsest, const std::vector<RoadScore>& peaks,
                                      double step, const RoadAlignmentOptions& options) {
   std::vector<Candidate> candidates;
-  const std::vector<float> values = template_values(problem.context, grid, 0);
+  const RoadLook<float> look{0, template_values(problem.context, grid, 0), options.noise_grey,
+                             kScoreStride};
   for (const RoadScore& peak : peaks) {
     if (peak.evidence < kPromising * peaks.front().evidence) break;
     Candidate candidate;
     candidate.fit =
-        polish(problem.context, grid, coarsest, problem.prior, peak.length, 4.0 * step, options);
-    candidate.score = score_length(problem.context, grid, values, 0, candidate.fit.motion,
-                                   options.noise_grey, kScoreStride);
+        polish(problem.context, grid, coarsest, problem.prior, {peak.length, 4.0 * step}, options);
+    candidate.score = score_length(problem.context, grid, look, candidate.fit.motion);
     candidates.push_back(std::move(candidate));
   }
   std::stable_sort(candidates.begin(), candidates.end(), [](const auto& a, const auto& b) {
@@ -229,8 +229,10 @@ RoadAlignment align(const Problem& problem, const RoadStep& step,
   result.status = RoadStatus::kNoTexture;
   if (result.textured < kLeastTextured) return result;
   const LengthRange range = range_of(step, grid, problem.context.camera, coarsest, options);
-  const auto peaks = search_lengths(problem.context, grid, coarsest, problem.prior.start, range,
-                                    noise, kMostPeaks);
+  const RoadLook<float> look{coarsest, template_values(problem.context, grid, coarsest), noise,
+                             kSearchStride};
+  const auto peaks =
+      search_lengths(problem.context, grid, look, problem.prior.start, range, kMostPeaks);
   result.status = RoadStatus::kNoCorrelation;
   if (peaks.empty()) return result;
   const auto candidates = candidates_at(problem, grid, coarsest, peaks, range.step, options);

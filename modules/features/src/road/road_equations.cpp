@@ -170,7 +170,7 @@ struct LineSums {
 
   void add(const WideVector& J, double residual, double weight, double place) {
     const Eigen::Vector2d one(weight, weight * place);
-    H.selfadjointView<Eigen::Lower>().rankUpdate(J, weight);
+    for (int i = 0; i < kWide; ++i) H.col(i).tail(kWide - i) += (weight * J(i)) * J.tail(kWide - i);
     g += weight * residual * J;
     cross += J * one.transpose();
     regressors(0, 0) += weight;
@@ -260,9 +260,9 @@ RoadMotion moved(const RoadMotion& start, const RoadTangents& tangents, const Ro
   return motion;
 }
 
-RoadEquations road_equations(const RoadContext& context, const RoadGrid& grid, const RoadLook& look,
-                             const RoadMotion& motion, const RoadTangents& tangents,
-                             const RoadEquations& before) {
+RoadEquations road_equations(const RoadContext& context, const RoadGrid& grid,
+                             const RoadLook<GreySample>& look, const RoadMotion& motion,
+                             const RoadTangents& tangents, const RoadEquations& before) {
   const Derivative derivative(context, motion, tangents, look.level);
   RoadEquations equations;
   context.workers->share(kBlocks, [&](std::size_t block, std::size_t) {

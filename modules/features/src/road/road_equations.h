@@ -38,19 +38,11 @@ struct BlockEquations {
 };
 using RoadEquations = std::array<BlockEquations, kBlocks>;
 
-/// How the blocks are looked at.
-struct RoadLook {
-  std::size_t level = 0;           ///< of the pyramids
-  std::vector<GreySample> values;  ///< template_samples() of that level
-  double noise_grey = 0.0;         ///< [grey] 1σ of a pixel of that level
-  int stride = 1;                  ///< every so many-th line along the road is used
-};
-
 /// Normal equations of all blocks at a motion. Robust weights by the residuals of the block before.
 /// @param before  equations of the step before, for gain and scale of the weights; gain ≤ 0: none
 [[nodiscard]] RoadEquations road_equations(const RoadContext& context, const RoadGrid& grid,
-                                           const RoadLook& look, const RoadMotion& motion,
-                                           const RoadTangents& tangents,
+                                           const RoadLook<GreySample>& look,
+                                           const RoadMotion& motion, const RoadTangents& tangents,
                                            const RoadEquations& before);
 
 }  // namespace oneac::internal

@@ -98,4 +98,13 @@ inline GreySample sample_at(const PyramidLevel& level, float u, float v) {
 [[nodiscard]] std::vector<GreySample> template_samples(const RoadContext& context,
                                                        const RoadGrid& grid, std::size_t level);
 
+/// How the blocks are looked at.
+template <class Sample>
+struct RoadLook {
+  std::size_t level = 0;       ///< of the pyramids
+  std::vector<Sample> values;  ///< of the template there: template_values(), template_samples()
+  double noise_grey = 0.0;     ///< [grey] 1σ of a pixel of that level
+  int stride = 1;              ///< every so many-th line along the road is used
+};
+
 }  // namespace oneac::internal

@@ -91,7 +91,7 @@ RoadVector solve_step(const RoadPrior& prior, double redundant, double uneven, R
   }
   add_prior(prior, fit.motion, fit.z, H, g);
   const Eigen::LDLT<RoadMatrix> factor(H);
-  const RoadVector step = -factor.solve(g);
+  RoadVector step = -factor.solve(g);
   if (factor.info() != Eigen::Success || !step.allFinite()) return RoadVector::Zero();
   fit.covariance = factor.solve(RoadMatrix::Identity());
   return step;
@@ -100,9 +100,9 @@ RoadVector solve_step(const RoadPrior& prior, double redundant, double uneven, R
 /// Iterates at one level. @return the last step was small
 bool polish_level(const RoadContext& context, const RoadGrid& grid, std::size_t level,
                   const RoadPrior& prior, const RoadAlignmentOptions& options, RoadFit& fit) {
-  const RoadLook look{level, template_samples(context, grid, level),
-                      options.noise_grey / static_cast<double>(1U << level),
-                      level == 0 ? kFineStride : kCoarseStride};
+  const RoadLook<GreySample> look{level, template_samples(context, grid, level),
+                                  options.noise_grey / static_cast<double>(1U << level),
+                                  level == 0 ? kFineStride : kCoarseStride};
   for (BlockEquations& block : fit.equations) block.variance = 0.0;
   double size = 0.0;
   for (int i = 0; i < kSteps; ++i) {
@@ -123,15 +123,14 @@ bool polish_level(const RoadContext& context, const RoadGrid& grid, std::size_t 
 }  // namespace
 
 RoadFit polish(const RoadContext& context, const RoadGrid& grid, std::size_t coarsest,
-               const RoadPrior& prior, double length, double max_change,
-               const RoadAlignmentOptions& options) {
+               const RoadPrior& prior, const RoadPeak& peak, const RoadAlignmentOptions& options) {
   RoadFit fit;
-  fit.z(0) = length - prior.start.length;
+  fit.z(0) = peak.length - prior.start.length;
   fit.motion = moved(prior.start, prior.tangents, fit.z);
   fit.weight.fill(1.0);
   for (std::size_t level = coarsest + 1; level-- > 0;) {
     fit.converged = polish_level(context, grid, level, prior, options, fit);
-    if (std::abs(fit.motion.length - length) > max_change) {
+    if (std::abs(fit.motion.length - peak.length) > peak.reach) {
       fit.converged = false;
       return fit;
     }

@@ -30,9 +30,15 @@ struct RoadFit {
   double scatter = 1.0;  ///< [-] χ² per degree of freedom of the blocks' lengths, at least 1
 };
 
+/// A maximum of the search. [heights]
+struct RoadPeak {
+  double length = 0.0;
+  double reach = 0.0;  ///< a fit that ends farther away is another one's
+};
+
 /// Gauss-Newton from the coarsest given level to the finest one, blocks weighted by agreement.
 [[nodiscard]] RoadFit polish(const RoadContext& context, const RoadGrid& grid, std::size_t coarsest,
-                             const RoadPrior& prior, double length, double max_change,
+                             const RoadPrior& prior, const RoadPeak& peak,
                              const RoadAlignmentOptions& options);
 
 }  // namespace oneac::internal

@@ -13,7 +13,6 @@ constexpr double kMostRho = 0.9;
 // [-] of the samples of a line or a block, that must be seen to compare it.
 constexpr int kLeastOfLine = kRows / 2;
 constexpr int kLeastOfBlock = kPerBlock / 4;
-constexpr int kSearchStride = 4;  // a quarter of the lines is enough to find the place
 
 /// Sums of pairs of grey values along a line; k counts its samples.
 struct LineMoments {
@@ -129,38 +128,35 @@ std::array<bool, kBlocks> textured_blocks(const RoadGrid& grid, const std::vecto
 }
 
 RoadScore score_length(const RoadContext& context, const RoadGrid& grid,
-                       const std::vector<float>& values, std::size_t level,
-                       const RoadMotion& motion, double noise_grey, int stride) {
-  const PyramidLevel& pixels = context.image->levels[level];
-  const LineWarp warp(context, motion, level);
-  const auto noise = static_cast<float>(noise_grey * noise_grey);
+                       const RoadLook<float>& look, const RoadMotion& motion) {
+  const PyramidLevel& pixels = context.image->levels[look.level];
+  const LineWarp warp(context, motion, look.level);
+  const auto noise = static_cast<float>(look.noise_grey * look.noise_grey);
   RoadScore score;
   score.length = motion.length;
   for (std::size_t block = 0; block < kBlocks; ++block) {
     Moments sum;
-    for (int column = 0; column < kColumns; column += stride) {
+    for (int column = 0; column < kColumns; column += look.stride) {
       const std::size_t first = block * kPerBlock + static_cast<std::size_t>(column * kRows);
-      sum.add_line(moments_of_line(grid, values, pixels, warp, first));
+      sum.add_line(moments_of_line(grid, look.values, pixels, warp, first));
     }
-    const float rho = sum.rho(noise, kLeastOfBlock / stride);
+    const float rho = sum.rho(noise, kLeastOfBlock / look.stride);
     score.rho[block] = rho;
     const double sure = std::clamp(static_cast<double>(rho), 0.0, kMostRho);
-    score.evidence -= 0.5 * stride * sum.n / kSamplesPerFact * std::log1p(-sure * sure);
+    score.evidence -= 0.5 * look.stride * sum.n / kSamplesPerFact * std::log1p(-sure * sure);
   }
   return score;
 }
 
 std::vector<RoadScore> search_lengths(const RoadContext& context, const RoadGrid& grid,
-                                      std::size_t level, const RoadMotion& motion,
-                                      const LengthRange& range, double noise_grey,
-                                      std::size_t most) {
-  const std::vector<float> values = template_values(context, grid, level);
+                                      const RoadLook<float>& look, const RoadMotion& motion,
+                                      const LengthRange& range, std::size_t most) {
   const int count = 1 + static_cast<int>(std::ceil((range.high - range.low) / range.step));
   std::vector<RoadScore> scores(static_cast<std::size_t>(count));
   context.workers->share(scores.size(), [&](std::size_t i, std::size_t) {
     RoadMotion at = motion;
     at.length = range.low + static_cast<double>(i) * range.step;
-    scores[i] = score_length(context, grid, values, level, at, noise_grey, kSearchStride);
+    scores[i] = score_length(context, grid, look, at);
   });
   std::vector<RoadScore> peaks;
   for (std::size_t i = 0; i < scores.size(); ++i) {

@@ -24,17 +24,18 @@ struct LengthRange {
                                                         const std::vector<float>& values,
                                                         double noise_grey);
 
+/// A search looks at every so many-th line along the road: enough to find the place.
+constexpr int kSearchStride = 4;
+
 /// Correlates the template with the image as it is seen at a length.
-/// @param stride  use every so many-th line along the road
 [[nodiscard]] RoadScore score_length(const RoadContext& context, const RoadGrid& grid,
-                                     const std::vector<float>& values, std::size_t level,
-                                     const RoadMotion& motion, double noise_grey, int stride);
+                                     const RoadLook<float>& look, const RoadMotion& motion);
 
 /// Local maxima of the evidence over the range, best first, at most `most`.
 [[nodiscard]] std::vector<RoadScore> search_lengths(const RoadContext& context,
-                                                    const RoadGrid& grid, std::size_t level,
+                                                    const RoadGrid& grid,
+                                                    const RoadLook<float>& look,
                                                     const RoadMotion& motion,
-                                                    const LengthRange& range, double noise_grey,
-                                                    std::size_t most);
+                                                    const LengthRange& range, std::size_t most);
 
 }  // namespace oneac::internal
