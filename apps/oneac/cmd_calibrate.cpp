@@ -6,6 +6,7 @@
 
 #include "oneac/base/atomic_file.h"
 #include "oneac/base/error.h"
+#include "oneac/base/printable.h"
 
 #include <CLI/CLI.hpp>
 
@@ -83,8 +84,8 @@ void run(CalibrateFlags& flags) {
   write_file_atomically(file, camera_ini(calibration, options.run.log));
   write_file_atomically(folder / "report.html", calibration_html(calibration, options.run.log));
   const std::string height = write_height(calibration, options.run.log, height_file(file));
-  std::cout << calibration_summary(calibration) << "written: " << file.string() << height << ", "
-            << (folder / "report.html").string() << '\n';
+  std::cout << calibration_summary(calibration) << "written: " << printable(file.string()) << height
+            << ", " << printable((folder / "report.html").string()) << '\n';
   fail_if_incomplete(calibration.drive);
 }
 

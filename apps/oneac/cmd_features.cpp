@@ -9,6 +9,7 @@
 
 #include "oneac/base/atomic_file.h"
 #include "oneac/base/error.h"
+#include "oneac/base/printable.h"
 
 #include <CLI/CLI.hpp>
 
@@ -46,7 +47,7 @@ void write_statistics(const FeatureStatistics& statistics, const FeaturesFlags& 
   write_file_atomically(folder / "regions.csv", format_regions(statistics));
   write_file_atomically(folder / "summary.md", summary);
   if (!last_image.empty()) draw_regions(last_image, statistics, folder / "regions.png");
-  std::cout << summary << "\nwritten to " << flags.options.output
+  std::cout << summary << "\nwritten to " << printable(flags.options.output)
             << ": pairs.csv, track_lengths.csv, regions.csv, regions.png, summary.md, "
                "tracks_*.png\n";
 }

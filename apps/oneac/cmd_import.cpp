@@ -20,8 +20,9 @@ namespace oneac::app {
 namespace {
 
 void print(const ImportReport& report) {
-  for (const std::string& note : report.notes) std::cerr << "oneac: note: " << note << '\n';
-  std::cout << "log     " << report.log.string() << '\n'
+  for (const std::string& note : report.notes)
+    std::cerr << "oneac: note: " << printable(note) << '\n';
+  std::cout << "log     " << printable(report.log.string()) << '\n'
             << "cameras " << report.observations << " observations, " << report.images
             << " images\n";
   if (report.gps + report.imu + report.wheels > 0) {
@@ -29,7 +30,7 @@ void print(const ImportReport& report) {
     if (report.wheels > 0) std::cout << ", " << report.wheels << " odometer readings";
     std::cout << '\n';
   }
-  if (!report.poses.empty()) std::cout << "poses   " << report.poses.string() << '\n';
+  if (!report.poses.empty()) std::cout << "poses   " << printable(report.poses.string()) << '\n';
 }
 
 /// @return the three angles

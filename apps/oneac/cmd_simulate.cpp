@@ -6,6 +6,7 @@
 
 #include "oneac/base/atomic_file.h"
 #include "oneac/base/error.h"
+#include "oneac/base/printable.h"
 #include "oneac/geometry/camera_frame.h"
 #include "oneac/rawlog/drive_recorder.h"
 #include "oneac/simulation/laps.h"
@@ -178,14 +179,14 @@ void simulate(const SimulateArguments& arguments) {
     std::cerr << "oneac: interrupted after " << written << " of " << simulator.size()
               << " frames; what exists is complete\n";
   }
-  std::cout << "log     " << files.log.string() << '\n'
-            << "images  " << files.images.string() << " (" << written
+  std::cout << "log     " << printable(files.log.string()) << '\n'
+            << "images  " << printable(files.images.string()) << " (" << written
             << (arguments.options.stereo ? " pairs" : "") << ")\n"
-            << "poses   " << files.poses.string() << '\n';
+            << "poses   " << printable(files.poses.string()) << '\n';
   if (!has_laps(arguments.options.route)) return;
   const std::filesystem::path loops = arguments.folder / "loops_true.csv";
   write_loops(simulator, written, loops);
-  std::cout << "loops   " << loops.string() << '\n';
+  std::cout << "loops   " << printable(loops.string()) << '\n';
 }
 
 }  // namespace

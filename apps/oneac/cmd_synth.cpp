@@ -5,6 +5,7 @@
 
 #include "oneac/base/atomic_file.h"
 #include "oneac/base/error.h"
+#include "oneac/base/printable.h"
 #include "oneac/solvers/registry.h"
 #include "oneac/study/claims.h"
 #include "oneac/study/readings.h"
@@ -95,7 +96,8 @@ void print_outcome(const StudyResult& result, const std::filesystem::path& folde
   for (const Claim& claim : judge_claims(result)) {
     std::cout << (claim.holds() ? "confirmed  " : "disagrees  ") << claim.paper << '\n';
   }
-  std::cout << "files      " << files << " in " << folder.string() << ", read summary.md first\n";
+  std::cout << "files      " << files << " in " << printable(folder.string())
+            << ", read summary.md first\n";
 }
 
 void synth(SynthArguments arguments) {

@@ -84,6 +84,10 @@ TEST_F(Everyday, NamesThatAreNoUtf8GiveResultsAndAreShownWithReplacements) {
   const Json summary = Json::parse(read_file(folder / "summary.json"));
   EXPECT_NE(summary["log"].get<std::string>().find(kShown), std::string::npos);
   EXPECT_TRUE(fs::exists(folder / "report.html"));
+  EXPECT_NE(result.out.find(kShown), std::string::npos) << result.out;
+  EXPECT_EQ(result.out.find(kLatin1), std::string::npos);
+  const ProgramResult info = oneac_program({"info", log.string()});
+  EXPECT_EQ(info.out.find(kLatin1), std::string::npos) << info.out;
   const fs::path poses = scratch() / (kLatin1 + ".txt");
   fs::copy(drive() / "poses.txt", poses);
   const ProgramResult compared =

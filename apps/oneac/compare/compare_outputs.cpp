@@ -1,6 +1,7 @@
 #include "compare_outputs.h"
 
 #include "oneac/base/atomic_file.h"
+#include "oneac/base/printable.h"
 #include "oneac/comparison/html_report.h"
 #include "oneac/comparison/tables.h"
 
@@ -26,7 +27,7 @@ void write_comparison(const ComparisonData& data, const CompareSettings& setting
   write_file_atomically(folder / "report.html", html_report(data, summary, overlays, all_notes));
   std::cout << table << data.pairs.size() << " pairs x " << data.methods.size() << " methods x "
             << data.trials << (data.trials == 1 ? " trial" : " trials") << "; written to "
-            << folder.string()
+            << printable(folder.string())
             << ": pairs.csv, timings.csv, summary.csv, table.md, table.tex, report.html\n";
 }
 

@@ -139,7 +139,7 @@ void write_all(std::vector<Driven>& driven, const std::vector<RecordedDrive>& dr
     const ClosedDrive& drive = closed.drives[i];
     tell_notes(log.record, &drive, log.options);
     if (log.record.frames.empty()) continue;
-    std::cout << log.options.log << ":\n";
+    std::cout << printable(log.options.log) << ":\n";
     write_results(log.record, &drive, log.options, log.wall_seconds);
   }
   write_closed_drives(drives, closed, folder);
@@ -148,7 +148,7 @@ void write_all(std::vector<Driven>& driven, const std::vector<RecordedDrive>& dr
   write_file_atomically(fs::path(folder) / "report.html", logs_report_html(drives, closed));
   const bool metric = drives.front().record->has_scale();
   write_file_atomically(fs::path(folder) / "files.json", manifest_json(folder, metric));
-  std::cout << text_about_logs(drives, closed) << "written to " << folder << ": "
+  std::cout << text_about_logs(drives, closed) << "written to " << printable(folder) << ": "
             << names_of_results(folder) << '\n';
   if (drives.front().options->run.quiet) return;
   for (const std::string& line : about_logs_apart(drives, closed)) {

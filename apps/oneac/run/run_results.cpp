@@ -41,7 +41,8 @@ void write_results(const DriveRecord& record, const ClosedDrive* closed, RunOpti
   write_file_atomically(folder / "files.json", manifest_json(folder, record.has_scale()));
   std::cout << summary_text(record, evaluation)
             << (closed != nullptr ? text_about(*closed, evaluation.closed_against_poses) : "")
-            << "written to " << options.output << ": " << names_of_results(folder) << '\n';
+            << "written to " << printable(options.output) << ": " << names_of_results(folder)
+            << '\n';
 }
 
 void tell_notes(const DriveRecord& record, const ClosedDrive* closed, const RunOptions& options) {

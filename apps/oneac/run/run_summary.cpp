@@ -4,6 +4,7 @@
 #include "run_georeference.h"
 
 #include "oneac/base/number_text.h"
+#include "oneac/base/printable.h"
 #include "oneac/base/version.h"
 #include "oneac/evaluation/report.h"
 #include "oneac/geometry/angles.h"
@@ -337,7 +338,7 @@ std::string summary_text(const DriveRecord& record, const RunEvaluation& evaluat
         "--calibration\n";
   }
   if (evaluation.against_poses) {
-    text += "against " + evaluation.reference_file + ":\n";
+    text += "against " + printable(evaluation.reference_file) + ":\n";
     text += format_table(*evaluation.against_poses, false);
   }
   if (evaluation.gps_lag_s) text += about_lag(*evaluation.gps_lag_s);

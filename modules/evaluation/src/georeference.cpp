@@ -130,8 +130,8 @@ GeoreferenceResult judged(const std::vector<Pair>& pairs, const Similarity& enu_
   const double middle = upper_median(residuals);
   const double scatter = kOfMedian * middle;
   if (!(spread >= kLeastSpread)) {
-    return none("drive or GPS positions lie within " + fixed_text(spread, 1) +
-                " m, 10 m are needed");
+    return none("drive or GPS positions scatter by " + fixed_text(spread, 1) +
+                " m about their middle (a straight way by 0.29 of its length), 10 m are needed");
   }
   if (!(spread >= kLeastShare * scatter) || !(enu_drive.scale > 0.0)) {
     return none("the GPS positions do not follow the drive: " + fixed_text(scatter, 1) +

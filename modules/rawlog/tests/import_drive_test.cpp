@@ -440,6 +440,18 @@ TEST_F(ImportKittiRaw, TakesTheRawCameraForImagesOfItsSize) {
   EXPECT_EQ(images[0]->cameraParams.dist[0], -0.3);
 }
 
+TEST_F(ImportKittiRaw, TakesTheRectifiedCameraWhereBothAreOfTheImagesSizeOrNoRawOneIsThere) {
+  make_drive();
+  const std::string rectified =
+      "S_rect_00: 64 48\nP_rect_00: 50 0 32 0 0 50 24 0 0 0 1 0\n"
+      "S_rect_01: 64 48\nP_rect_01: 50 0 32 -27 0 50 24 0 0 0 1 0\n";
+  for (const char* raw : {"S_00: 64 48\nK_00: 55 0 40 0 55 30 0 0 1\nD_00: -0.3 0.2 0 0 0\n", ""}) {
+    write_text(folder_.path() / "2011_09_26" / "calib_cam_to_cam.txt", raw + rectified);
+    import_kitti_raw(options_);
+    EXPECT_EQ(stored<CObservationStereoImages>()[0]->leftCamera.fx(), 50.0) << raw;
+  }
+}
+
 TEST_F(ImportKittiRaw, TakesItsHeightAndNamesTheLineThatIsWrong) {
   make_drive();
   options_.camera_height_m.reset();

@@ -221,6 +221,9 @@ TEST_F(ImportKitti, RefusesAPoseThatIsNone) {
   write_text(options_.source / "poses.txt",
              "1 0 0 0 0 1 0 0 0 0 1 0\n0 0 0 0 0 0 0 0 0 0 0 0\n1 0 0 0 0 1 0 0 0 0 1 2\n");
   EXPECT_NE(complaint().find("row 2: is no rotation"), std::string::npos) << complaint();
+  write_text(options_.source / "poses.txt",
+             "1 0 0 0 0 1 0 0 0 0 1 0\n1 0 0 0 0 1 0 0 0 0 1 1\n1 0 0 0 0 1 0 0 0 0 1 1e30\n");
+  EXPECT_NE(complaint().find("row 3: lies 1e15 m away"), std::string::npos) << complaint();
 }
 
 TEST_F(ImportKitti, RefusesAFirstImageOfOnePixel) {

@@ -108,12 +108,17 @@ std::vector<std::string> lines_of(const fs::path& file) {
   return lines;
 }
 
-/// @throws InputError naming the first row that is no pose
+/// @throws InputError naming the first row that is no pose, or one that no reader takes
 void require_poses(const std::vector<std::vector<double>>& table, const fs::path& file) {
-  constexpr double kOrthonormal = 1e-3;  // as when a reference is read
+  constexpr double kOrthonormal = 1e-3, kFarthest = 1e15;  // as when a reference is read
   for (std::size_t row = 0; row < table.size(); ++row) {
     const Eigen::Matrix<double, 3, 4, Eigen::RowMajor> T(table[row].data());
     const Eigen::Matrix3d R = T.leftCols<3>();
+    if (!(T.col(3).cwiseAbs().maxCoeff() < kFarthest)) {
+      throw InputError(file.string() + ": row " + std::to_string(row + 1),
+                       "lies 1e15 m away, or more",
+                       "give the poses.txt of this sequence, or take it away");
+    }
     const Eigen::Matrix3d off = R * R.transpose() - Eigen::Matrix3d::Identity();
     if (off.cwiseAbs().maxCoeff() < kOrthonormal && R.determinant() > 0.0) continue;
     throw InputError(file.string() + ": row " + std::to_string(row + 1), "is no rotation",

@@ -41,13 +41,16 @@ fs::path find_calibration(const fs::path& source) {
                    "put the calibration of the drive's day there, or give --calibration");
 }
 
-/// The rectified camera for images of its size, else the raw one.
+/// The rectified camera, unless the images have the size of the raw one and not its own.
 std::string section_for(const fs::path& file, const RawPair& pair, const fs::path& image) {
   const std::string rectified = file.string() + ":P_rect_" + pair.left_id;
+  const std::string raw = file.string() + ":K_" + pair.left_id;
   const auto [width, height] = image_size(image);
-  const PinholeCamera raw = load_calibration(file.string() + ":K_" + pair.left_id, "");
-  if (raw.width == width && raw.height == height) return file.string() + ":K_" + pair.left_id;
-  return rectified;
+  const auto is_of = [&, w = width, h = height](const std::string& section) {
+    const PinholeCamera camera = load_calibration(section, "");
+    return camera.width == w && camera.height == h;
+  };
+  return is_of(rectified) || !is_of(raw) ? rectified : raw;
 }
 
 template <class Row>

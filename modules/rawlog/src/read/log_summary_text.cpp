@@ -1,5 +1,6 @@
 #include "read/log_layout.h"
 
+#include "oneac/base/printable.h"
 #include "oneac/geometry/levelling.h"
 #include "oneac/rawlog/log_summary.h"
 
@@ -64,7 +65,7 @@ std::string image_lines(const LogSummary& summary) {
                        camera.present, camera.images, camera.images - camera.present);
   }
   std::string lines = text("images: %zu of %zu present\n", present, images) + per_camera;
-  for (const auto& folder : summary.image_folders) lines += "  found in " + folder + "\n";
+  for (const auto& folder : summary.image_folders) lines += "  found in " + printable(folder) + "\n";
   if (present < images) lines += "  searched " + summary.searched_folders + "\n";
   return lines;
 }
@@ -133,7 +134,7 @@ std::string reference_lines(const LogSummary& summary) {
 }  // namespace
 
 std::string to_text(const LogSummary& summary) {
-  std::string lines = summary.log.string() + "\n";
+  std::string lines = printable(summary.log.string()) + "\n";
   lines += text("format: %s, %s, %zu observations\n", summary.format.c_str(),
                 summary.compression.c_str(), summary.observations);
   if (summary.first_s) {
