@@ -96,7 +96,8 @@ TEST(Georeference, SaysWhyThereIsNone) {
   EXPECT_NE(georeference(drive(), late, true).reason.find("0 GPS positions"), std::string::npos);
   std::vector<PositionFix> standing = fixes(0.0);
   for (PositionFix& fix : standing) fix.enu = kShift;
-  EXPECT_NE(georeference(drive(), standing, true).reason.find("scatter by 0.0 m"), std::string::npos);
+  EXPECT_NE(georeference(drive(), standing, true).reason.find("scatter by 0.0 m"),
+            std::string::npos);
   Trajectory parked = drive();
   for (Eigen::Isometry3d& pose : parked.poses) pose.setIdentity();
   standing[20].enu += Eigen::Vector3d(300.0, 0.0, 0.0);

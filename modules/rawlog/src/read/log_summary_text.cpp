@@ -65,7 +65,8 @@ std::string image_lines(const LogSummary& summary) {
                        camera.present, camera.images, camera.images - camera.present);
   }
   std::string lines = text("images: %zu of %zu present\n", present, images) + per_camera;
-  for (const auto& folder : summary.image_folders) lines += "  found in " + printable(folder) + "\n";
+  for (const auto& folder : summary.image_folders)
+    lines += "  found in " + printable(folder) + "\n";
   if (present < images) lines += "  searched " + summary.searched_folders + "\n";
   return lines;
 }
