@@ -448,7 +448,9 @@ TEST_F(ImportKittiRaw, TakesTheRectifiedCameraWhereBothAreOfTheImagesSizeOrNoRaw
   for (const char* raw : {"S_00: 64 48\nK_00: 55 0 40 0 55 30 0 0 1\nD_00: -0.3 0.2 0 0 0\n", ""}) {
     write_text(folder_.path() / "2011_09_26" / "calib_cam_to_cam.txt", raw + rectified);
     import_kitti_raw(options_);
-    EXPECT_EQ(stored<CObservationStereoImages>()[0]->leftCamera.fx(), 50.0) << raw;
+    const auto pairs = stored<CObservationStereoImages>();
+    ASSERT_FALSE(pairs.empty()) << raw;
+    EXPECT_EQ(pairs[0]->leftCamera.fx(), 50.0) << raw;
   }
 }
 

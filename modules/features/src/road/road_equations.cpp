@@ -16,7 +16,7 @@ constexpr int kLeastOfLine = kRows / 2;
 constexpr int kLeastOfBlock = kPerBlock / 4;
 // Residual's derivatives by the unknowns, then by a shift of the block across the road and its
 // gain.
-constexpr int kAcross = kUnknowns, kGain = kUnknowns + 1;
+constexpr int kShift = kUnknowns, kGain = kUnknowns + 1;
 constexpr int kWide = kUnknowns + 2;
 using WideVector = Eigen::Matrix<double, kWide, 1>;
 using WideMatrix = Eigen::Matrix<double, kWide, kWide>;
@@ -84,7 +84,7 @@ class Derivative {
     J.segment<3>(3) = X.cross(h);
     J(6) = motion_.length * h.dot(tangents_.travel.col(0));
     J(7) = motion_.length * h.dot(tangents_.travel.col(1));
-    J(kAcross) = h.dot(across_);
+    J(kShift) = h.dot(across_);
   }
 
   const RoadMotion& motion_;

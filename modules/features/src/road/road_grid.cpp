@@ -31,6 +31,24 @@ double nearest_in_view(const RoadContext& context, const Eigen::Matrix3d& R_a_le
   return 0.0;
 }
 
+/// What the template shows at every usable sample of the grid, read by `read`, which needs `margin`
+/// pixels around a place; zero elsewhere.
+template <class Sample, class Read>
+std::vector<Sample> look_up(const RoadContext& context, const RoadGrid& grid, std::size_t level,
+                            double margin, const Read& read) {
+  const PyramidLevel& pixels = context.template_image->levels[level];
+  const double scale = 1.0 / static_cast<double>(1U << level);
+  std::vector<Sample> samples(grid.rays.size(), Sample{});
+  for (std::size_t i = 0; i < samples.size(); ++i) {
+    if (!grid.usable[i]) continue;
+    const Eigen::Vector2d u = scale * grid.u[i];
+    if (!inside_level(pixels, u.x() - margin, u.y() - margin)) continue;
+    if (!inside_level(pixels, u.x() + margin, u.y() + margin)) continue;
+    samples[i] = read(pixels, static_cast<float>(u.x()), static_cast<float>(u.y()));
+  }
+  return samples;
+}
+
 }  // namespace
 
 RoadGrid make_road_grid(const RoadContext& context, const Eigen::Matrix3d& R_level_a,
@@ -67,31 +85,12 @@ RoadGrid make_road_grid(const RoadContext& context, const Eigen::Matrix3d& R_lev
 
 std::vector<float> template_values(const RoadContext& context, const RoadGrid& grid,
                                    std::size_t level) {
-  const PyramidLevel& pixels = context.template_image->levels[level];
-  const double scale = 1.0 / static_cast<double>(1U << level);
-  std::vector<float> values(grid.rays.size(), 0.0F);
-  for (std::size_t i = 0; i < values.size(); ++i) {
-    if (!grid.usable[i]) continue;
-    const Eigen::Vector2d u = scale * grid.u[i];
-    if (!inside_level(pixels, u.x(), u.y())) continue;
-    values[i] = grey_at(pixels, static_cast<float>(u.x()), static_cast<float>(u.y()));
-  }
-  return values;
+  return look_up<float>(context, grid, level, 0.0, grey_at);
 }
 
 std::vector<GreySample> template_samples(const RoadContext& context, const RoadGrid& grid,
                                          std::size_t level) {
-  const PyramidLevel& pixels = context.template_image->levels[level];
-  const double scale = 1.0 / static_cast<double>(1U << level);
-  std::vector<GreySample> samples(grid.rays.size(), GreySample{});
-  for (std::size_t i = 0; i < samples.size(); ++i) {
-    if (!grid.usable[i]) continue;
-    const Eigen::Vector2d u = scale * grid.u[i];
-    if (!inside_level(pixels, u.x() - 1.0, u.y() - 1.0)) continue;
-    if (!inside_level(pixels, u.x() + 1.0, u.y() + 1.0)) continue;
-    samples[i] = sample_at(pixels, static_cast<float>(u.x()), static_cast<float>(u.y()));
-  }
-  return samples;
+  return look_up<GreySample>(context, grid, level, 1.0, sample_at);
 }
 
 }  // namespace oneac::internal

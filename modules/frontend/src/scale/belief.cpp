@@ -22,7 +22,7 @@ constexpr double kMoves = 2.5;
 constexpr double kAgree = 2.0;
 constexpr double kStillness = 0.02;
 constexpr double kNothing = 1e-9;  // [m] a shorter step is no divisor
-constexpr double kCreep = 0.15;    // [m] ten times what noise makes of a bonnet
+constexpr double kCreep = 0.15;    // [m] four times what noise made of a bonnet
 // [m or heights] a rest that is known no better than this says nothing in metres.
 constexpr double kSureRest = 0.05;
 // [-] share of the points that has to rest: of a car that stood (a bus may fill the picture, and a
@@ -242,7 +242,7 @@ StepLength Scale::steadied(const StepLength& told, const ExpectedLength& expecte
   result.length = mean_of(told, inertia).length;
   result.sigma_m = told.sigma_m * inertia.sigma_m / std::hypot(told.sigma_m, inertia.sigma_m);
   result.sigma_m *= birge_ratio(told, inertia);
-  // The speed was learned from lengths of the same map, or the same road.
+  // The speed may have been learned from lengths of the same map.
   const double shared = common_sigma(told.source) * told.length;
   result.sigma_m = std::max(result.sigma_m, std::min(shared, expected.common));
   result.sigma = result.sigma_m / std::max(result.length, kNothing);

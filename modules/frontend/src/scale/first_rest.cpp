@@ -7,7 +7,7 @@ namespace {
 constexpr double kLong = 1.0;
 // [-] The rest is left to people, and tracks that are lost: a bonnet and drops are less of a
 // picture.
-constexpr double kNearlyAll = 0.9;
+constexpr double kLeastInPlace = 0.9;
 // [px] tracks of a second slip by half of it.
 constexpr double kInPlace = 1.0;
 constexpr std::size_t kFewest = 20;  // [points] of which a share says something
@@ -42,7 +42,7 @@ void FirstRest::follow(const TwoView& seen, double begin_s, double end_s) {
   if (sure_) return;
   if (places_.empty()) begin(seen, begin_s);
   if (end_s - since_s_ < kLong) return;
-  sure_ = share_in_place(seen) >= kNearlyAll;
+  sure_ = share_in_place(seen) >= kLeastInPlace;
   places_.clear();
 }
 
