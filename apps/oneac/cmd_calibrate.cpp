@@ -56,7 +56,7 @@ std::string write_height(const Calibration& calibration, const std::string& log,
 struct CalibrateFlags {
   CalibrateOptions options;
   std::vector<std::string> parameter_files;
-  std::vector<std::string> settings;
+  std::vector<Setting> settings;
   bool no_progress = false;
 };
 
@@ -105,10 +105,7 @@ void add_calibrate(CLI::App& program) {
                    "60 where there is neither");
   verb->add_option("--passes", flags->options.passes, "over the drive, at most")
       ->capture_default_str();
-  verb->add_option("--params", flags->parameter_files, "YAML with parameters; may be repeated")
-      ->allow_extra_args(false);
-  verb->add_option("--set", flags->settings, "section.key=value, any key of params/default.yaml")
-      ->allow_extra_args(false);
+  add_parameters(*verb, flags->parameter_files, flags->settings);
   add_selection(*verb, flags->settings);
   add_key(*verb, "--threads", "run.threads", flags->settings, "threads that share a drive");
   verb->add_flag("--no-progress", flags->no_progress, "no progress bar");

@@ -29,7 +29,7 @@ constexpr std::size_t kPictures = 6;  // worst pairs with their inliers in the r
 struct CompareFlags {
   RunOptions options;  ///< the keys of `oneac run`, of which those of the refinement are not used
   std::vector<std::string> parameter_files;
-  std::vector<std::string> settings;
+  std::vector<Setting> settings;
   std::vector<std::string> logs;
   std::vector<std::string> merge;
   std::vector<std::string> plugins;
@@ -199,10 +199,7 @@ void add_compare(CLI::App& program) {
       ->allow_extra_args(false);
   verb->add_option("--shard", flags->shard, "i/n: only the pairs with number i modulo n");
   verb->add_option("--merge", flags->merge, "puts the results of shards together: their folders");
-  verb->add_option("--params", flags->parameter_files, "YAML with parameters; may be repeated")
-      ->allow_extra_args(false);
-  verb->add_option("--set", flags->settings, "section.key=value, any key of params/default.yaml")
-      ->allow_extra_args(false);
+  add_parameters(*verb, flags->parameter_files, flags->settings);
   add_keys(verb, *flags);
   verb->add_flag("--no-progress", flags->no_progress, "no progress bar");
   verb->add_flag("--quiet", flags->quiet, "no progress bar, notes or warnings");

@@ -2,14 +2,13 @@
 #include "terminal/key_flags.h"
 
 #include "oneac/base/error.h"
+#include "oneac/base/finite_number.h"
 #include "oneac/base/printable.h"
 #include "oneac/evaluation/evaluate.h"
 #include "oneac/evaluation/report.h"
 
 #include <CLI/CLI.hpp>
 
-#include <charconv>
-#include <cmath>
 #include <iostream>
 #include <memory>
 #include <string>
@@ -31,10 +30,9 @@ struct EvalArguments {
 void take_offset(const std::string& text, EvaluationRequest& request) {
   request.estimate_offset = text == "estimate";
   if (text.empty() || request.estimate_offset) return;
-  const char* end = text.data() + text.size();
-  const auto [stop, error] = std::from_chars(text.data(), end, request.time.offset_s);
-  const bool good = error == std::errc() && stop == end && std::isfinite(request.time.offset_s);
-  if (!good) throw InputError("--offset " + text, "is no number", "give seconds, or estimate");
+  const auto offset_s = finite_number(text);
+  if (!offset_s) throw InputError("--offset " + text, "is no number", "give seconds, or estimate");
+  request.time.offset_s = *offset_s;
 }
 
 void evaluate(const EvalArguments& arguments) {

@@ -26,7 +26,7 @@ namespace fs = std::filesystem;
 struct FeaturesFlags {
   RunOptions options;
   std::vector<std::string> parameter_files;
-  std::vector<std::string> settings;
+  std::vector<Setting> settings;
   std::size_t picture_every = 50;  // five seconds at the usual 10 Hz
   bool no_progress = false;
 };
@@ -90,10 +90,7 @@ void add_features(CLI::App& program) {
   auto flags = std::make_shared<FeaturesFlags>();
   verb->add_option("LOG", flags->options.log, "rawlog: plain, .gz or zstd");
   verb->add_option("-o,--output", flags->options.output, "folder for the results, made if missing");
-  verb->add_option("--params", flags->parameter_files, "YAML with parameters; may be repeated")
-      ->allow_extra_args(false);
-  verb->add_option("--set", flags->settings, "section.key=value, any key of params/default.yaml")
-      ->allow_extra_args(false);
+  add_parameters(*verb, flags->parameter_files, flags->settings);
   verb->add_option("--picture-every", flags->picture_every, "draw the tracks of every K-th pair");
   add_selection(*verb, flags->settings);
   add_key(*verb, "--threads", "run.threads", flags->settings, "threads that share a drive");

@@ -33,7 +33,7 @@ struct RunFlags {
   RunOptions options;
   std::vector<std::string> logs;
   std::vector<std::string> parameter_files;
-  std::vector<std::string> settings;
+  std::vector<Setting> settings;
   std::vector<std::string> plugins;
   bool print_params = false;
   bool no_progress = false;
@@ -109,10 +109,7 @@ void add_run(CLI::App& program) {
   verb->add_option("LOG", flags->logs,
                    "rawlog: plain, .gz or zstd; several are joined where they overlap (--loops)");
   verb->add_option("-o,--output", flags->options.output, "folder for the results, made if missing");
-  verb->add_option("--params", flags->parameter_files, "YAML with parameters; may be repeated")
-      ->allow_extra_args(false);
-  verb->add_option("--set", flags->settings, "section.key=value, any key of params/default.yaml")
-      ->allow_extra_args(false);
+  add_parameters(*verb, flags->parameter_files, flags->settings);
   add_key(*verb, "--initialiser", "front_end.initialiser", flags->settings,
           "method of the relative pose");
   verb->add_option("--plugin", flags->plugins, "library with initialisers; may be repeated")
@@ -124,7 +121,8 @@ void add_run(CLI::App& program) {
   add_key(*verb, "--seed", "run.seed", flags->settings, "seed of methods that draw random numbers");
   add_key(*verb, "--threads", "run.threads", flags->settings, "threads that share a drive");
   verb->add_flag_callback(
-      "--georeference", [flags] { flags->settings.emplace_back("run.georeference=true"); },
+      "--georeference",
+      [flags] { flags->settings.push_back({"--georeference", "run.georeference", "true"}); },
       "write trajectory_enu.tum as well: the vehicle's way in the frame of the log's GPS");
   verb->add_flag("--loops", flags->loops,
                  "find places seen again, measure them in metres, close the drive by them; join "

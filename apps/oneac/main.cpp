@@ -1,5 +1,6 @@
 #include "commands.h"
 #include "terminal/help_text.h"
+#include "terminal/key_flags.h"
 #include "terminal/quiet_libraries.h"
 #include "terminal/usage.h"
 
@@ -28,6 +29,7 @@ int main(int argc, char** argv) {
   oneac::app::add_simulate(program);
   oneac::app::add_eval(program);
   oneac::app::add_synth(program);
+  oneac::app::take_decimal_numbers(program);
   try {
     program.parse(argc, argv);
     if (std::cout.flush()) return 0;

@@ -290,6 +290,35 @@ TEST_F(Everyday, MessagesNameTheKeyOrFlagThatWasTyped) {
                  {"--rolling-shutter = 9"});
 }
 
+TEST_F(Everyday, AFlagThatIsAlsoAKeyIsNamedAsItWasTyped) {
+  expect_refused(run(log(), {"--threads", "abc"}), {"--threads: ", "'abc'"});
+  expect_refused(run(log(), {"--camera-height", "1,65"}), {"--camera-height: ", "'1,65'"});
+  expect_refused(run(log(), {"--camera-height", "5.0000001"}), {"5.0000001, must be"});
+  expect_refused(run(log(), {"--set", "run.threads=abc"}), {"--set run.threads: ", "'abc'"});
+}
+
+TEST_F(Everyday, NumbersOfFlagsAreDecimal) {
+  const fs::path folder = scratch() / "few";
+  const auto simulate = [&](const std::string& frames) {
+    return oneac_program({"simulate", "-o", folder.string(), "--frames", frames, "--width", "64",
+                          "--height", "48", "--focal", "50"});
+  };
+  for (const char* eight : {"08", "+8", "8"}) {
+    EXPECT_EQ(simulate(eight).exit_code, 0);
+    const fs::directory_iterator images(folder / "Images");
+    EXPECT_EQ(std::distance(begin(images), end(images)), 8) << eight;
+    fs::remove_all(folder);
+  }
+  for (const char* none : {"0x8", "8.5", "", "+-8", "1e1"}) {
+    expect_refused(simulate(none), {"--frames", "whole number"});
+  }
+  for (const char* none : {"0x2", "", "nan", "1,5"}) {
+    expect_refused(
+        oneac_program({"import", "kitti", out(), "-o", out(), "--camera-height", none}),
+        {"--camera-height", "must be a number"});
+  }
+}
+
 TEST_F(Everyday, MissingRightImagesAreSaidOnceWithCounts) {
   const fs::path folder = scratch() / "stereo";
   ASSERT_EQ(oneac_program({"simulate", "-o", folder.string(), "--frames", "6", "--width", "320",

@@ -1,10 +1,10 @@
 #include "run_options.h"
 
 #include "oneac/base/error.h"
+#include "oneac/base/finite_number.h"
 #include "oneac/initialisers/yaml_parameters.h"
 
 #include <algorithm>
-#include <charconv>
 #include <stdexcept>
 
 namespace oneac::app {
@@ -54,10 +54,7 @@ namespace {
 /// Zero for an angle that is not given.
 double angle_of(const char* key, const std::string& text) {
   if (text.empty()) return 0.0;
-  double value = 0.0;
-  const char* end = text.data() + text.size();
-  const auto [stop, error] = std::from_chars(text.data(), end, value);
-  if (error == std::errc{} && stop == end) return value;
+  if (const auto angle = finite_number(text)) return *angle;
   throw InputError("parameters", std::string("source.") + key + " = '" + text + "' is no number",
                    "give degrees");
 }
@@ -154,19 +151,15 @@ void RunOptions::validate() {
   }
 }
 
-void apply_settings(const std::vector<std::string>& files, const std::vector<std::string>& settings,
+void apply_settings(const std::vector<std::string>& files, const std::vector<Setting>& settings,
                     RunOptions& options) {
   ParameterTable table = options.table();
   for (const std::string& file : files) apply_yaml_file(file, table);
-  for (const std::string& setting : settings) {
-    const auto equals = setting.find('=');
-    if (equals == std::string::npos) {
-      throw InputError("--set " + setting, "has no '='", "write --set section.key=value");
-    }
+  for (const Setting& setting : settings) {
     try {
-      table.set(setting.substr(0, equals), setting.substr(equals + 1));
+      table.set(setting.key, setting.value);
     } catch (const std::invalid_argument& error) {
-      throw InputError("--set " + setting, error.what(), "see params/default.yaml for all keys");
+      throw InputError(setting.typed, error.what(), "see params/default.yaml for all keys");
     }
   }
 }

@@ -1,5 +1,7 @@
 #pragma once
 
+#include "terminal/setting.h"
+
 #include "oneac/base/parameter_table.h"
 #include "oneac/frontend/front_end_options.h"
 #include "oneac/loops/global_adjustment.h"
@@ -64,8 +66,8 @@ struct RunOptions {
   void validate();
 };
 
-/// Applies parameter files, then "key=value" settings. @throws InputError
-void apply_settings(const std::vector<std::string>& files, const std::vector<std::string>& settings,
+/// Applies parameter files, then settings. @throws InputError naming the file or flag
+void apply_settings(const std::vector<std::string>& files, const std::vector<Setting>& settings,
                     RunOptions& options);
 
 }  // namespace oneac::app

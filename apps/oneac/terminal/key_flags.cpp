@@ -1,23 +1,59 @@
 #include "key_flags.h"
 
+#include "oneac/base/error.h"
 #include "oneac/base/finite_number.h"
 #include "oneac/base/printable.h"
 
+#include <algorithm>
 #include <cstddef>
+#include <string_view>
 
 namespace oneac::app {
 namespace {
 
 constexpr std::size_t kLongest = 40;  // [byte] of a value in a message
 
+std::string in_quotes(const std::string& text) {
+  return "'" + shortened(printable(text), kLongest) + "'";
+}
+
 template <class Bound>
 CLI::Validator number_that(const Bound& holds, const std::string& bound, const char* name) {
   return {[holds, bound](std::string& text) {
             const auto value = finite_number(text);
             if (value && holds(*value)) return std::string();
-            return "'" + shortened(printable(text), kLongest) + "' must be a number " + bound;
+            return in_quotes(text) + " must be a number " + bound;
           },
           name};
+}
+
+/// CLI11 gets "8" for "+8" and "08", which it would read in base 8.
+std::string take_whole(std::string& text) {
+  const std::size_t first = text.find_first_not_of("+-");
+  const bool whole = first != std::string::npos && first <= 1 &&
+                     text.find_first_not_of("0123456789", first) == std::string::npos;
+  if (!whole) return in_quotes(text) + " must be a whole number";
+  const std::size_t digit = std::min(text.find_first_not_of('0', first), text.size() - 1);
+  text = (text[0] == '-' ? "-" : "") + text.substr(digit);
+  return "";
+}
+
+std::string take_decimal(std::string& text) {
+  return finite_number(text) ? "" : in_quotes(text) + " must be a number";
+}
+
+/// The type comes first, then the bounds: "FLOAT:ABOVE 0".
+bool is_of_type(const CLI::Option& option, std::string_view type) {
+  return option.get_type_name().compare(0, type.size(), type) == 0;
+}
+
+Setting setting_of(const std::string& text) {
+  const auto equals = text.find('=');
+  if (equals == std::string::npos) {
+    throw InputError("--set " + text, "has no '='", "write --set section.key=value");
+  }
+  const std::string key = text.substr(0, equals);
+  return {"--set " + key, key, text.substr(equals + 1)};
 }
 
 }  // namespace
@@ -30,14 +66,39 @@ CLI::Validator at_least_zero() {
   return number_that([](double value) { return value >= 0.0; }, "of at least 0", "AT LEAST 0");
 }
 
+void take_decimal_numbers(CLI::App& program) {
+  for (CLI::App* verb : program.get_subcommands({})) {
+    for (CLI::Option* option : verb->get_options()) {
+      if (is_of_type(*option, "FLOAT")) option->transform(CLI::Validator(take_decimal, ""));
+      if (is_of_type(*option, "INT")) option->transform(CLI::Validator(take_whole, ""));
+      if (is_of_type(*option, "UINT")) option->transform(CLI::Validator(take_whole, ""));
+    }
+    take_decimal_numbers(*verb);
+  }
+}
+
+void add_parameters(CLI::App& verb, std::vector<std::string>& files,
+                    std::vector<Setting>& settings) {
+  verb.add_option("--params", files, "YAML with parameters; may be repeated")
+      ->allow_extra_args(false);
+  verb.add_option_function<std::vector<std::string>>(
+          "--set",
+          [&settings](const std::vector<std::string>& texts) {
+            for (const std::string& text : texts) settings.push_back(setting_of(text));
+          },
+          "section.key=value, any key of params/default.yaml")
+      ->allow_extra_args(false);
+}
+
 void add_key(CLI::App& verb, const std::string& flag, const std::string& key,
-             std::vector<std::string>& settings, const std::string& help) {
+             std::vector<Setting>& settings, const std::string& help) {
   verb.add_option_function<std::string>(
-      flag, [&settings, key](const std::string& value) { settings.push_back(key + "=" + value); },
+      flag,
+      [&settings, flag, key](const std::string& value) { settings.push_back({flag, key, value}); },
       help);
 }
 
-void add_selection(CLI::App& verb, std::vector<std::string>& settings) {
+void add_selection(CLI::App& verb, std::vector<Setting>& settings) {
   add_key(verb, "--features", "front_end.features.extractor", settings,
           "klt, vlfeat, vlfeat+align or sift");
   add_key(verb, "--images-dir", "source.images_dir", settings, "folder of the external images");

@@ -1,5 +1,7 @@
 #pragma once
 
+#include "terminal/setting.h"
+
 #include <CLI/CLI.hpp>
 
 #include <string>
@@ -7,16 +9,24 @@
 
 namespace oneac::app {
 
-/// A flag that is also a key: it is kept as a setting "key=value" and applied after the files.
+/// --params FILE, and --set section.key=value.
+void add_parameters(CLI::App& verb, std::vector<std::string>& files,
+                    std::vector<Setting>& settings);
+
+/// A flag that is also a key: it is kept as a setting and applied after the files.
 void add_key(CLI::App& verb, const std::string& flag, const std::string& key,
-             std::vector<std::string>& settings, const std::string& help);
+             std::vector<Setting>& settings, const std::string& help);
 
 /// The flags that choose images and correspondences, the same for every verb that reads a drive.
-void add_selection(CLI::App& verb, std::vector<std::string>& settings);
+void add_selection(CLI::App& verb, std::vector<Setting>& settings);
 
 /// Checks of a flag: a finite number above 0, or of at least 0. CLI11's own name the largest double
 /// in 309 digits, and take NaN.
 [[nodiscard]] CLI::Validator above_zero();
 [[nodiscard]] CLI::Validator at_least_zero();
+
+/// Lets the options of all verbs that are numbers take decimal ones only. CLI11 reads "0x2" as 2,
+/// "010" as 8 and "" as 0.
+void take_decimal_numbers(CLI::App& program);
 
 }  // namespace oneac::app

@@ -19,7 +19,8 @@ constexpr std::size_t kLongestValue = 60;  // [byte] in a message
 template <class Number>
 bool parse(const std::string& text, Number& value) {
   const char* end = text.data() + text.size();
-  const auto [stop, error] = std::from_chars(text.data(), end, value);
+  const bool plus = text.size() > 1 && text[0] == '+' && text[1] != '-';  // from_chars knows none
+  const auto [stop, error] = std::from_chars(text.data() + (plus ? 1 : 0), end, value);
   return error == std::errc{} && stop == end;
 }
 

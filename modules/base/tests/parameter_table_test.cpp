@@ -54,6 +54,8 @@ TEST(ParameterTable, SetsNestedFieldsOfEveryType) {
   table.set("top.inner.on", "false");
   EXPECT_EQ(options.count, -7);
   EXPECT_EQ(options.first, 12U);
+  table.set("top.count", "+8");
+  EXPECT_EQ(options.count, 8);
   EXPECT_EQ(options.name, "new");
   EXPECT_DOUBLE_EQ(options.inner.gain, 2.5e-3);
   EXPECT_FALSE(options.inner.on);
@@ -68,6 +70,7 @@ TEST(ParameterTable, RefusesTextOfTheWrongTypeAndKeepsTheOldValue) {
   EXPECT_EQ(message_of_setting("top.count", "1.5"),
             "key 'top.count' must be a whole number, not '1.5'");
   EXPECT_NE(message_of_setting("top.first", "-1"), "");
+  EXPECT_NE(message_of_setting("top.count", "+-1"), "");
   EXPECT_NE(message_of_setting("top.inner.gain", "1 m"), "");
   EXPECT_NE(message_of_setting("top.inner.on", "yes"), "");
 }

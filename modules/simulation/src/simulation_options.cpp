@@ -1,6 +1,7 @@
 #include "oneac/simulation/simulation_options.h"
 
 #include "oneac/base/require.h"
+#include "oneac/geometry/camera_height.h"
 
 #include <cmath>
 #include <sstream>
@@ -51,7 +52,7 @@ void SimulationOptions::validate() const {
   require_within("fps", fps, 0.5, 200.0);
   require_within("baseline_m", baseline_m, 0.001, 2.0);
   require_within("image_noise", image_noise, 0.0, 50.0);
-  require_within("camera_height_m", camera_height_m, 0.3, 3.5);
+  require_within("camera_height_m", camera_height_m, CameraHeight::kLowest, CameraHeight::kHighest);
   require_within("camera_forward_m", camera_forward_m, -3.0, 3.0);
   require_within("camera_tilt_deg", camera_tilt_deg, -45.0, 45.0);
   require_within("camera_left_m", camera_left_m, -2.0, 2.0);

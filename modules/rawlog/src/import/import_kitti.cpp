@@ -138,21 +138,27 @@ fs::path find_poses(const fs::path& source) {
   return there ? kittis : fs::path();
 }
 
-void copy_poses(const fs::path& source, const Sequence& sequence, ImportReport& report) {
+/// The poses of these images, to be written as they stand; empty where there are none.
+std::string poses_of(const fs::path& source, const Sequence& sequence, ImportReport& report) {
   const fs::path file = find_poses(source);
-  if (file.empty()) return;
+  if (file.empty()) return "";
   require_poses(read_number_table(file, kPoseColumns), file);  // found here, not when used
   const std::vector<std::string> lines = lines_of(file);
   const auto rows = rows_of(sequence.images, lines.size());
   if (rows.empty()) {
     report.notes.push_back(file.filename().string() +
                            " is left out: " + counts(lines.size(), sequence.images.size()));
-    return;
+    return "";
   }
   std::string text;
   for (const std::size_t row : rows) text += lines[row] + '\n';
+  return text;
+}
+
+void write_poses(const std::string& poses, ImportReport& report) {
+  if (poses.empty()) return;
   report.poses = report.log.parent_path() / (report.log.stem().string() + "_poses.txt");
-  write_file_atomically(report.poses, text);
+  write_file_atomically(report.poses, poses);
 }
 
 /// Whether the folder is KITTI's own, whose cameras are 1.65 m above the road.
@@ -201,8 +207,9 @@ ImportReport import_kitti(const KittiImport& options) {
                               : find_times(options.source, sequence, report);
   drive.right = find_right(options, sequence, report);
   require_writable_folder(options.log.has_parent_path() ? options.log.parent_path() : ".");
-  copy_poses(options.source, sequence, report);  // poses that are none leave no log
-  write_drive(drive, options.log, options.copy_images, report);
+  const std::string poses = poses_of(options.source, sequence, report);
+  write_drive(drive, options.log, options.copy_images, report);  // not where poses are none
+  write_poses(poses, report);
   return report;
 }
 

@@ -5,7 +5,8 @@
 
 namespace oneac {
 
-/// The number that a text is, with nothing before or behind it; none for NaN and infinity.
+/// The decimal number that a text is, with nothing but a sign before it and nothing behind it; none
+/// for NaN and infinity.
 [[nodiscard]] std::optional<double> finite_number(std::string_view text);
 
 }  // namespace oneac

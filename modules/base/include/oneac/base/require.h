@@ -1,9 +1,12 @@
 #pragma once
 
+#include "oneac/base/number_text.h"
+
 #include <locale>
 #include <sstream>
 #include <stdexcept>
 #include <string_view>
+#include <type_traits>
 
 namespace oneac {
 
@@ -16,7 +19,13 @@ void require(bool met, std::string_view field, const Value& value, std::string_v
   if (met) return;
   std::ostringstream message;
   message.imbue(std::locale::classic());
-  message << field << " = " << value << ", must be " << bound;
+  message << field << " = ";
+  if constexpr (std::is_floating_point_v<Value>) {
+    message << exact_text(value);  // 5.0000001 is not "5"
+  } else {
+    message << value;
+  }
+  message << ", must be " << bound;
   throw std::invalid_argument(message.str());
 }
 
