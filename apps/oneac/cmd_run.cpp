@@ -122,7 +122,9 @@ void add_run(CLI::App& program) {
   add_key(*verb, "--threads", "run.threads", flags->settings, "threads that share a drive");
   verb->add_flag_callback(
       "--georeference",
-      [flags] { flags->settings.push_back({"--georeference", "run.georeference", "true"}); },
+      [flags] {
+        flags->settings.push_back({"--georeference", "run.georeference", "true"});
+      },
       "write trajectory_enu.tum as well: the vehicle's way in the frame of the log's GPS");
   verb->add_flag("--loops", flags->loops,
                  "find places seen again, measure them in metres, close the drive by them; join "

@@ -313,9 +313,8 @@ TEST_F(Everyday, NumbersOfFlagsAreDecimal) {
     expect_refused(simulate(none), {"--frames", "whole number"});
   }
   for (const char* none : {"0x2", "", "nan", "1,5"}) {
-    expect_refused(
-        oneac_program({"import", "kitti", out(), "-o", out(), "--camera-height", none}),
-        {"--camera-height", "must be a number"});
+    expect_refused(oneac_program({"import", "kitti", out(), "-o", out(), "--camera-height", none}),
+                   {"--camera-height", "must be a number"});
   }
 }
 

@@ -2,6 +2,7 @@
 
 #include "reference_track.h"
 
+#include "oneac/evaluation/pair_errors.h"
 #include "oneac/geometry/angles.h"
 #include "oneac/report/thinned_series.h"
 
@@ -146,7 +147,8 @@ Plot scale_plot(const DriveRecord& record, const ReferenceTrack& track) {
   Plot plot{"Scale", "time [s]", "%", {}, false};
   plot.series.push_back(
       per_step(record, "1σ of a metric length", [](std::size_t, const StepResult& step) {
-        return step.metric && step.length_sigma > 0.0 ? 100.0 * step.length_sigma : kNone;
+        const bool drives = step.metric && step.length > kSmallestTrueStep;  // no share of nothing
+        return drives && step.length_sigma > 0.0 ? 100.0 * step.length_sigma : kNone;
       }));
   if (!track.poses.empty() && record.has_scale()) {
     plot.series.push_back(scale_error(record, track));

@@ -94,7 +94,9 @@ void add_key(CLI::App& verb, const std::string& flag, const std::string& key,
              std::vector<Setting>& settings, const std::string& help) {
   verb.add_option_function<std::string>(
       flag,
-      [&settings, flag, key](const std::string& value) { settings.push_back({flag, key, value}); },
+      [&settings, flag, key](const std::string& value) {
+        settings.push_back({flag, key, value});
+      },
       help);
 }
 

@@ -178,6 +178,9 @@ TEST(Scale, ACreepThatMayBeTheBonnetsIsNotMetricBeforeASpeedIsKnown) {
   EXPECT_FALSE(first_step(0.04, false).metric);
   EXPECT_TRUE(first_step(0.04, true).metric);
   EXPECT_TRUE(first_step(0.4, false).metric) << "no bonnet rests by so much noise";
+  StepInTime creeping = rest(MeasuredTravel{0.08, 0.01, LengthSource::kRoadImage, true});
+  creeping.car_is_known = false;
+  EXPECT_FALSE(started(by("height")).length_of(creeping, {}).metric);
 }
 
 TEST(Scale, ImagesThatShowTravelShowNoRestBeforeASpeedIsKnown) {

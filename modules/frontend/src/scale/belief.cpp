@@ -113,7 +113,7 @@ StepLength Scale::by_itself(const StepInTime& step) const {
   told.sigma = step.direct->sigma / step.direct->length;
   told.metric = true;
   told.source = step.direct->source;
-  return told;
+  return may_be_the_car(told, step) ? without_metres(told) : told;
 }
 
 /// While no speed is known, a bonnet that rests is a creeping car, by noise.
@@ -126,11 +126,11 @@ StepLength Scale::decided(const StepInTime& step,
                           const std::vector<LengthMeasurement>& measured) const {
   if (step.status == StepStatus::kNoMotion) return at_rest(step);
   std::vector<StepLength> told;
-  if (!measured.empty()) told.push_back(stated(measured.front()));
+  if (!measured.empty()) {
+    const StepLength by_map = stated(measured.front());
+    if (!may_be_the_car(by_map, step)) told.push_back(by_map);
+  }
   if (const StepLength direct = by_itself(step); direct.metric) told.push_back(direct);
-  told.erase(std::remove_if(told.begin(), told.end(),
-                            [&](const StepLength& one) { return may_be_the_car(one, step); }),
-             told.end());
   StepLength result = chosen(told, step);
   // A map that is too unsure to be called metric knows what cannot be.
   if (result.metric && told.size() == 2 && !told.front().metric &&
@@ -285,7 +285,7 @@ StepLength Scale::at_rest(const StepInTime& step) const {
     if (moves && told->in_metres) {
       const StepLength direct = by_itself(step);
       // A creep is seen as a rest is, by what nearly keeps its place, and asks for as much.
-      if (!expected) return few_rest ? held(step) : direct;
+      if (!expected) return few_rest || !direct.metric ? held(step) : direct;
       return expected->allows(direct.length, direct.sigma_m) ? direct : held(step);
     }
     // Of a car that was too fast to be there already what rests is something else.
