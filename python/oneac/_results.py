@@ -232,7 +232,13 @@ class CameraBelief:
     given: Camera
     """of the images as the front-end gets them"""
     used: Camera
-    """from the newest frame on"""
+    """from the newest frame on, without what its lens was found to do"""
+    raw_used: Camera
+    """of the images as they are stored, from the newest frame on"""
+    raw_learned: Camera
+    """the same, most probable by bends"""
+    raw_sigma: Floats
+    """1σ of it: ln f, cx and cy over f, k1, k2"""
     focal_px: float
     """most probable focal length"""
     focal_sigma: float

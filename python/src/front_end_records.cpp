@@ -33,8 +33,10 @@ py::object to_python(const TiltBelief& belief) {
 
 py::object to_python(const CameraBelief& belief) {
   return result_class("CameraBelief")(
-      belief.given, belief.used, belief.focal_px, belief.focal_sigma, belief.drive_sigma,
-      belief.bends, belief.sensors, belief.contradicting, belief.doubt, belief.knows_focal());
+      belief.given, belief.used, belief.raw_used, belief.raw_learned,
+      to_numpy(Eigen::MatrixXd(belief.sigma.transpose())).attr("ravel")(), belief.focal_px,
+      belief.focal_sigma, belief.drive_sigma, belief.bends, belief.sensors, belief.contradicting,
+      belief.doubt, belief.knows_focal());
 }
 
 void log_to_python(std::string_view text, mrpt::system::VerbosityLevel level) {

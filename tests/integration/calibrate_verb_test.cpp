@@ -235,6 +235,28 @@ TEST_F(CalibrateVerb, CameraThatARunHasLearnedIsReadBackAsTheSame) {
   EXPECT_NEAR(value_of(ini, "fx"), 250.0, 6.0) << ini;
 }
 
+TEST_F(CalibrateVerb, LensThatARunHasLearnedIsItsCameraIni) {
+  const std::string log = simulate({"--frames", "240"});
+  const std::string wrong = folder("wrong.ini");
+  std::ofstream(wrong) << "[CAMERA_PARAMS]\nresolution = [320 240]\ncx = 159.5\ncy = 119.5\n"
+                          "fx = 250\nfy = 250\ndist = [0.12 0 0 0 0]\n";
+  const std::string out = folder("out");
+  ASSERT_EQ(run_program({ONEAC_PROGRAM, "run", log, "-o", out, "--calibration", wrong, "--set",
+                         "front_end.calibration.refine=full"})
+                .exit_code,
+            0);
+  const std::string ini = text_of(out + "/camera.ini");
+  EXPECT_NE(ini.find("k1 and k2 learned"), std::string::npos) << ini;
+  const auto at = ini.find("dist = [");
+  ASSERT_NE(at, std::string::npos) << ini;
+  EXPECT_NEAR(std::stod(ini.substr(at + 8)), 0.0, 0.03) << ini;
+  const auto said = nlohmann::json::parse(
+      text_of(out + "/summary.json"))["camera"]["self_calibration"]["raw_camera_by_bends"];
+  EXPECT_NEAR(said["k1"].get<double>(), 0.0, 0.03);
+  EXPECT_GT(said["k1_sigma"].get<double>(), 0.0);
+  EXPECT_LT(said["k1_sigma"].get<double>(), 0.03);
+}
+
 TEST_F(CalibrateVerb, RefusesAFieldOfViewThatNoCameraHas) {
   const ProgramResult result = run_program(
       {ONEAC_PROGRAM, "calibrate", "a.rawlog", "-o", folder("camera.ini"), "--fov-deg", "200"});

@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 namespace oneac::app {
 namespace {
@@ -210,19 +211,47 @@ std::vector<Plot> error_plots(const DriveRecord& record, const RunEvaluation& ev
   return {rotation, direction};
 }
 
-/// The focal length as bend after bend tells it, with 1σ on both sides.
-Plot focal_plot(const DriveRecord& record) {
-  Plot plot{"Focal length by the bends", "time [s]", "px", {}};
-  PlotSeries best{"by the bends", {}, {}, Pen::kMarkers}, low{"−1σ", {}, {}}, high{"+1σ", {}, {}};
-  for (const FocalMoment& moment : record.camera_belief.history) {
+/// A number with its 1σ, as bend after bend tells it.
+template <class Value>
+void add_learned(const DriveRecord& record, const std::string& label, Plot& plot, Value&& value) {
+  PlotSeries best{label, {}, {}, Pen::kMarkers}, low{"−1σ", {}, {}}, high{"+1σ", {}, {}};
+  for (const CameraMoment& moment : record.camera_belief.history) {
     const double time = moment.time_s - record.frames.front().time_s;
     for (PlotSeries* series : {&best, &low, &high}) series->x.push_back(time);
-    best.y.push_back(moment.focal_px);
-    low.y.push_back(moment.focal_px * (1.0 - moment.focal_sigma));
-    high.y.push_back(moment.focal_px * (1.0 + moment.focal_sigma));
+    const auto [mean, sigma] = value(moment);
+    best.y.push_back(mean);
+    low.y.push_back(mean - sigma);
+    high.y.push_back(mean + sigma);
   }
-  plot.series = {best, low, high};
-  return plot;
+  for (PlotSeries* series : {&best, &low, &high}) plot.series.push_back(std::move(*series));
+}
+
+/// What bends tell of the camera; all but its focal length takes two of them.
+std::vector<Plot> camera_plots(const DriveRecord& record) {
+  const CameraBelief& belief = record.camera_belief;
+  if (belief.history.empty()) return {};
+  std::vector<Plot> plots{{"Focal length by the bends", "time [s]", "px", {}}};
+  add_learned(record, "by the bends", plots[0], [](const CameraMoment& moment) {
+    return std::pair(moment.focal_px, moment.focal_sigma * moment.focal_px);
+  });
+  if (belief.bends < 2) return plots;
+  plots.push_back({"Principal point by the bends, off the given one", "time [s]", "px", {}});
+  const auto add_centre = [&](const char* label, double PinholeCamera::*which, Intrinsic unknown) {
+    add_learned(record, label, plots[1], [&, which, unknown](const CameraMoment& moment) {
+      return std::pair(moment.raw_learned.*which - record.raw_camera.*which,
+                       moment.sigma[unknown] * record.raw_camera.focal_px());
+    });
+  };
+  add_centre("cx", &PinholeCamera::cx, kCentreX);
+  add_centre("cy", &PinholeCamera::cy, kCentreY);
+  plots.push_back({"Distortion by the bends", "time [s]", "", {}});
+  add_learned(record, "k1", plots[2], [](const CameraMoment& moment) {
+    return std::pair(moment.raw_learned.distortion[0], moment.sigma[kK1]);
+  });
+  add_learned(record, "k2", plots[2], [](const CameraMoment& moment) {
+    return std::pair(moment.raw_learned.distortion[1], moment.sigma[kK2]);
+  });
+  return plots;
 }
 
 }  // namespace
@@ -233,7 +262,7 @@ std::vector<Plot> plots_of(const DriveRecord& record, const RunEvaluation& evalu
   std::vector<Plot> plots = {speed_plot(record, track), yaw_rate_plot(record, track),
                              scale_plot(record, track), tilt_plot(record)};
   plots.push_back(counts_plot(record));
-  if (!record.camera_belief.history.empty()) plots.push_back(focal_plot(record));
+  for (Plot& plot : camera_plots(record)) plots.push_back(std::move(plot));
   for (Plot& plot : error_plots(record, evaluation)) plots.push_back(std::move(plot));
   return plots;
 }

@@ -181,20 +181,6 @@ std::string about_faulty_answers(const DriveRecord& record) {
          " answers of the initialiser cannot be used (first: " + record.faulty.first + ")";
 }
 
-/// The raw image's camera whose undistorted images have a focal length `factor` times as long:
-/// distortion is a function of the angle to the axis, which becomes as much smaller.
-PinholeCamera with_longer_focal(PinholeCamera camera, double factor) {
-  camera.fx *= factor;
-  camera.fy *= factor;
-  const double squared = factor * factor;
-  camera.distortion[0] *= squared;
-  camera.distortion[1] *= squared * squared;
-  camera.distortion[2] *= factor;
-  camera.distortion[3] *= factor;
-  camera.distortion[4] *= squared * squared * squared;
-  return camera;
-}
-
 /// Images that have no right one, where the scale comes of stereo.
 std::string about_lone_images(const DriveRecord& record) {
   const SourceReport& source = record.source;
@@ -230,19 +216,23 @@ std::string about_doubted_lengths(const DriveRecord& record) {
          " % less sure for it; \"oneac calibrate LOG -o camera.ini\" tells more";
 }
 
+std::string about_used_camera(const DriveRecord& record) {
+  const CameraBelief& belief = record.camera_belief;
+  if (belief.used.fx == belief.given.fx) return "as given: the drive does not say otherwise";
+  const bool all = belief.raw_used.cx != record.raw_camera.cx;
+  return std::string(all ? "focal length, principal point, k1 and k2" : "focal length") +
+         " learned by " + std::to_string(belief.bends) + " bends, the focal length good to " +
+         fixed_text(100.0 * belief.focal_sigma, 1) + " % (1 sigma), the rest as given";
+}
+
 }  // namespace
 
 std::string used_camera_ini(const DriveRecord& record, const std::string& log) {
   if (!is_five_term_lens(record.raw_camera)) return "";
   const CameraBelief& belief = record.camera_belief;
-  const double factor = belief.used.focal_px() / belief.given.focal_px();
-  const bool learned = belief.used.fx != belief.given.fx;
-  return calibration_text(
-      with_longer_focal(record.raw_camera, factor),
-      {"used by oneac run (oneac " + version() + ") at the end of " + log,
-       learned ? "focal length learned by " + std::to_string(belief.bends) + " bends, good to " +
-                     fixed_text(100.0 * belief.focal_sigma, 1) + " % (1 sigma), the rest as given"
-               : std::string("as given: the drive does not say otherwise")});
+  return calibration_text(belief.raw_used,
+                          {"used by oneac run (oneac " + version() + ") at the end of " + log,
+                           about_used_camera(record)});
 }
 
 void write_drive(const DriveRecord& record, const std::filesystem::path& folder) {

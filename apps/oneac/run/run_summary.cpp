@@ -6,6 +6,7 @@
 #include "oneac/base/number_text.h"
 #include "oneac/base/printable.h"
 #include "oneac/base/version.h"
+#include "oneac/calibration/intrinsics_belief.h"
 #include "oneac/evaluation/report.h"
 #include "oneac/geometry/angles.h"
 #include "oneac/rawlog/log_neighbours.h"
@@ -149,6 +150,19 @@ Json learned_json(const DriveRecord& record) {
                {"focal_by_bends_px", nullptr},
                {"focal_sigma", belief.focal_sigma}};
   if (belief.knows_focal()) json["focal_by_bends_px"] = belief.focal_px;
+  if (belief.bends < IntrinsicsBelief::kFewestWindows) return json;
+  const PinholeCamera& c = belief.raw_learned;
+  const double px = record.raw_camera.focal_px();
+  json["raw_camera_by_bends"] = {{"fx_px", c.fx},
+                                 {"fy_px", c.fy},
+                                 {"cx_px", c.cx},
+                                 {"cy_px", c.cy},
+                                 {"k1", c.distortion[0]},
+                                 {"k2", c.distortion[1]},
+                                 {"cx_sigma_px", px * belief.sigma[kCentreX]},
+                                 {"cy_sigma_px", px * belief.sigma[kCentreY]},
+                                 {"k1_sigma", belief.sigma[kK1]},
+                                 {"k2_sigma", belief.sigma[kK2]}};
   return json;
 }
 

@@ -85,7 +85,7 @@ PreparedFrame FrontEnd::prepare(CameraFrame frame) const {
 }
 
 FrameResult FrontEnd::process(PreparedFrame prepared) {
-  if (!started_) learner_->start(prepared.frame.camera);
+  if (!started_) learner_->start(prepared.frame.camera, prepared.frame.raw_camera);
   prepared.frame.camera = learner_->used();
   const CameraFrame& frame = prepared.frame;
   double features_ms = prepared.features_ms;
@@ -102,6 +102,7 @@ FrameResult FrontEnd::process(PreparedFrame prepared) {
     road.through_dirt = tracker_->views_through_dirt();
     if (stereo_) correspondences_ = with_stereo_depths(std::move(correspondences_), frame);
     pair = normalised(correspondences_, previous_camera_, frame);
+    if (const auto lens = learner_->lens()) pair = lens->corrected(std::move(pair));
   }
   previous_camera_ = frame.camera;
   previous_road_ = road.second;
@@ -135,7 +136,7 @@ FrameResult FrontEnd::process(PreparedFrame prepared) {
 }
 
 void FrontEnd::learn_camera(const FrameResult& result) {
-  const double before = previous_camera_.focal_px();
+  const PinholeCamera before = learner_->belief().raw_used;
   learner_->add_frame(result.time_s, result.step->status != StepStatus::kPredicted);
   bool changed = learner_->follow_turns(result.settled.frames, tilt());
   if (const auto keyframe = odometry_->newest_keyframe()) {
@@ -145,7 +146,7 @@ void FrontEnd::learn_camera(const FrameResult& result) {
   odometry_->doubt_camera(learner_->belief().doubt);
   if (!changed) return;
   previous_camera_ = learner_->used();
-  odometry_->renormalise(before / previous_camera_.focal_px());
+  odometry_->renormalise({before, learner_->belief().raw_used});
 }
 
 const CameraBelief& FrontEnd::camera_belief() const {

@@ -43,7 +43,7 @@ class Odometry {
   /// Relative 1σ that lengths by images have by the camera, from the next step on.
   void doubt_camera(double relative_sigma) { scale_.doubt_camera(relative_sigma); }
   /// Normalised coordinates of the frames to come are longer by this factor.
-  void renormalise(double factor) { map_.renormalise(factor); }
+  void renormalise(const CameraChange& change) { map_.renormalise(change); }
 
   /// For the tilt source "imu".
   void add_inertial(const InertialReading& reading) { attitude_.add_inertial(reading); }

@@ -11,11 +11,20 @@
 namespace oneac {
 namespace {
 
-/// Three windows, as a camera of another focal length sees them that is given as true_camera().
-void drive_on(CameraLearner& learner, double turn, double true_focal_factor) {
-  PinholeCamera truth = true_camera();
-  truth.fx *= true_focal_factor;
-  truth.fy *= true_focal_factor;
+/// What the front-end makes of a place in an undistorted image, as far as it has learned.
+Eigen::Vector2d normalised_by(const CameraLearner& learner, const Eigen::Vector2d& undistorted) {
+  TrackedPair pair;
+  pair.correspondences.emplace_back();
+  pair.correspondences[0].x2 =
+      learner.used().normalise(learner.belief().given.project(undistorted));
+  const auto lens = learner.lens();
+  return lens ? lens->corrected(pair).correspondences[0].x2 : pair.correspondences[0].x2;
+}
+
+/// Three windows, as this camera sees them.
+/// @param given  of the images as they are stored: undistorted ones are true_camera()'s
+void drive_with(CameraLearner& learner, double turn, const PinholeCamera& truth,
+                const PinholeCamera& given = true_camera()) {
   for (std::uint64_t seed = 1; seed <= 3; ++seed) {
     SyntheticDrive drive;
     drive.turn = turn;
@@ -26,13 +35,22 @@ void drive_on(CameraLearner& learner, double turn, double true_focal_factor) {
       NewestKeyframe keyframe{view.T_view_map, {}};
       for (const CalibrationSighting& seen : view.sightings) {
         // Tracks of one bend end before the next.
-        keyframe.sightings.push_back({1000U * seed + seen.track, learner.used().normalise(seen.u)});
+        keyframe.sightings.push_back({1000U * seed + seen.track,
+                                      normalised_by(learner, normalise_distorted(given, seen.u))});
       }
       learner.follow(keyframe, index, 0.1 * static_cast<double>(index));
       ++index;
     }
   }
   learner.finish();
+}
+
+/// As a camera of another focal length sees them that is given as true_camera().
+void drive_on(CameraLearner& learner, double turn, double true_focal_factor) {
+  PinholeCamera truth = true_camera();
+  truth.fx *= true_focal_factor;
+  truth.fy *= true_focal_factor;
+  drive_with(learner, turn, truth);
 }
 
 TEST(CameraLearner, AccusesAFocalLengthThatIsTenPercentOffAndNamesTheOther) {
@@ -103,6 +121,55 @@ TEST(CameraLearner, UsesWhatItLearnedWhenAskedTo) {
   EXPECT_EQ(learner.used().cx, true_camera().cx);
   EXPECT_FALSE(learner.fault());
   EXPECT_GE(learner.belief().history.size(), 3U);
+}
+
+TEST(CameraLearner, LearnsALensWhenAskedToOfRawImages) {
+  SelfCalibrationOptions options;
+  options.refine = "full";
+  PinholeCamera given = true_camera(), truth = true_camera();
+  given.distortion = {-0.3, 0.1, 1e-3, -5e-4, 0.0};
+  truth.distortion = {-0.2, 0.05, 1e-3, -5e-4, 0.0};
+  truth.fx = truth.fy = 1.02 * truth.fx;
+  truth.cx += 8.0;
+  CameraLearner learner(options);
+  learner.start(true_camera(), given);
+  drive_with(learner, 0.03, truth, given);
+  drive_with(learner, 0.03, truth, given);  // its keyframes are normalised by what was learned
+  ASSERT_TRUE(learner.lens().has_value());
+  const PinholeCamera& learned = learner.belief().raw_learned;
+  EXPECT_NEAR(learned.fx, truth.fx, 0.005 * truth.fx);
+  EXPECT_NEAR(learned.cx, truth.cx, 2.0);
+  EXPECT_NEAR(learned.distortion[0], -0.2, 0.02);
+  EXPECT_EQ(learned.distortion[2], 1e-3) << "is not learned";
+  const Eigen::Vector2d direction(0.6, 0.2), u = project_distorted(truth, direction);
+  const Eigen::Vector2d before = normalise_distorted(given, u);
+  EXPECT_LT((normalised_by(learner, before) - direction).norm(), 0.1 * (before - direction).norm());
+  EXPECT_LT(learner.belief().sigma[kK1], 0.02);
+}
+
+TEST(CameraLearner, LearnsTheLensOfUndistortedImagesWhereTheirsHasMoreTerms) {
+  SelfCalibrationOptions options;
+  options.refine = "full";
+  PinholeCamera fisheye = true_camera(), truth = true_camera();
+  fisheye.lens = LensModel::kannala_brandt;
+  truth.distortion[0] = 0.06;
+  CameraLearner learner(options);
+  learner.start(true_camera(), fisheye);
+  drive_with(learner, 0.03, truth);
+  EXPECT_EQ(learner.belief().raw_learned.lens, LensModel::plumb_bob);
+  EXPECT_NEAR(learner.belief().raw_learned.distortion[0], 0.06, 0.02);
+}
+
+TEST(CameraLearner, KeepsALensThatBendsDoNotContradict) {
+  SelfCalibrationOptions options;
+  options.refine = "full";
+  CameraLearner learner(options);
+  learner.start(true_camera());
+  drive_on(learner, 0.03, 1.0);
+  drive_on(learner, 0.03, 1.0);
+  EXPECT_NE(learner.belief().raw_learned.cx, true_camera().cx);
+  EXPECT_EQ(learner.used().cx, true_camera().cx);
+  EXPECT_FALSE(learner.lens().has_value());
 }
 
 TEST(CameraLearner, KeepsAGivenFocalLengthThatBendsDoNotContradict) {

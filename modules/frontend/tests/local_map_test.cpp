@@ -71,7 +71,10 @@ TEST(LocalMap, CarriesTheLengthOnWhenTheFocalLengthHasChanged) {
   constexpr double kFactor = 1.05;
   const Corridor corridor(200);
   LocalMap map = driven_map(corridor, 4);
-  map.renormalise(kFactor);
+  PinholeCamera camera, shorter;
+  camera.fx = camera.fy = kFocal;
+  shorter.fx = shorter.fy = kFocal / kFactor;
+  map.renormalise({camera, shorter});
   TrackedPair step = corridor.step(4.0, 4.7);
   for (Correspondence& ac : step.correspondences) {
     ac.x1 *= kFactor;

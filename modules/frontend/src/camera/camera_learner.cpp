@@ -4,6 +4,7 @@
 
 #include "oneac/base/number_text.h"
 #include "oneac/geometry/angles.h"
+#include "oneac/geometry/lens.h"
 
 #include <algorithm>
 #include <cmath>
@@ -19,6 +20,8 @@ constexpr std::size_t kMostTracks = 200;
 constexpr double kSure = 3.0, kTolerated = 0.03;
 // [σ] from which what bends say is used: of good calibrations they contradict one in twenty.
 constexpr double kDoubtful = 2.0;
+constexpr double kDoubtfulOfAll = 2.57;   // [σ] of one of five unknowns: as rare
+constexpr std::size_t kBendsOfALens = 3;  // whose scatter is that of five unknowns
 // [-] of ln f: who is farther away does not measure the camera's turns.
 constexpr double kPlausible = 0.35;
 
@@ -41,16 +44,20 @@ double doubt_of(const JointEstimate& joint, const IntrinsicsEstimate& bends,
 
 }  // namespace
 
-void CameraLearner::start(const PinholeCamera& given) {
+void CameraLearner::start(const PinholeCamera& given, const PinholeCamera& raw) {
+  const bool knows_lens = raw.width > 0 && is_five_term_lens(raw);
   belief_ = {};
   belief_.given = belief_.used = given;
+  belief_.raw_used = belief_.raw_learned = raw_ = knows_lens ? raw : given;
   belief_.focal_px = given.focal_px();
   belief_.focal_sigma = options_.focal_sigma;
-  intrinsics_.emplace(given, prior());
-  belief_.drive_sigma = intrinsics_->estimate().drive_sigma[kFocal];
+  intrinsics_.emplace(raw_, prior());
+  const IntrinsicsEstimate before = intrinsics_->estimate();
+  belief_.drive_sigma = before.drive_sigma[kFocal];
+  belief_.sigma = before.covariance.diagonal().cwiseSqrt();
   static_cast<void>(cutter_.finish());
   change_.setZero();
-  contradicted_ = confirmed_ = false;
+  contradicted_ = moves_lens_ = confirmed_ = false;
   accused_sigmas_ = 0.0;
 }
 
@@ -65,7 +72,7 @@ bool CameraLearner::follow(const NewestKeyframe& keyframe, std::size_t index, do
   CalibrationView view{keyframe.T_cam_map, {}};
   view.sightings.reserve(keyframe.sightings.size());
   for (const KeyframeSighting& seen : keyframe.sightings) {
-    view.sightings.push_back({seen.track, belief_.used.project(seen.x)});
+    view.sightings.push_back({seen.track, project_distorted(belief_.raw_used, seen.x)});
   }
   const auto window = cutter_.add(std::move(view));
   return window && measure(*window) && move();
@@ -74,13 +81,25 @@ bool CameraLearner::follow(const NewestKeyframe& keyframe, std::size_t index, do
 bool CameraLearner::move() {
   if (!learns()) return false;
   // A camera that was calibrated well is better than a bend's half per cent.
-  contradicted_ =
-      contradicted_ || (confirmed_ && std::abs(change_[kFocal]) >= kDoubtful * belief_.focal_sigma);
-  if (!contradicted_) return false;
-  IntrinsicsVector focal = IntrinsicsVector::Zero();
-  focal[kFocal] = change_[kFocal];
-  belief_.used = changed(belief_.given, focal);
+  const bool focal = std::abs(change_[kFocal]) >= kDoubtful * belief_.focal_sigma;
+  contradicted_ = contradicted_ || (confirmed_ && focal);
+  moves_lens_ = moves_lens_ || lens_is_doubtful();
+  if (!contradicted_ && !moves_lens_) return false;
+  belief_.raw_used =
+      moves_lens_ ? belief_.raw_learned : with_longer_focal(raw_, std::exp(change_[kFocal]));
+  belief_.used = pinhole_of(belief_.given, raw_, belief_.raw_used);
   return true;
+}
+
+std::optional<LearnedLens> CameraLearner::lens() const {
+  if (!moves_lens_) return std::nullopt;
+  return LearnedLens(belief_.given, belief_.used, raw_, belief_.raw_used);
+}
+
+/// One unknown by one: together, k1 and k2 are surer than a lens is of two terms.
+bool CameraLearner::lens_is_doubtful() const {
+  if (options_.refine != "full" || belief_.bends < kBendsOfALens) return false;
+  return (change_.cwiseAbs().array() >= kDoubtfulOfAll * belief_.sigma.array()).any();
 }
 
 void CameraLearner::add_yaw_rate(double time_s, double rate) {
@@ -111,7 +130,7 @@ bool CameraLearner::measure(const CalibrationWindow& window) {
   if (window.views.empty() || turn_of(window) < options_.min_turn_deg * kDegree) return false;
   MeasurementOptions options;
   options.most_tracks = kMostTracks;
-  const auto measured = measure_intrinsics(window, belief_.given, change_, prior(), options);
+  const auto measured = measure_intrinsics(window, raw_, change_, prior(), options);
   if (!measured) return false;
   intrinsics_->add(*measured);
   conclude();
@@ -128,14 +147,17 @@ void CameraLearner::conclude() {
   // A sensor that contradicts takes nothing away from what the bends say.
   const IntrinsicsEstimate& accuser = joint.contradicting.empty() ? estimate : bends;
   accused_sigmas_ = std::abs(accuser.change[kFocal]) / accuser.sigma(kFocal);
-  belief_.focal_px = estimate.camera.focal_px();
+  belief_.focal_px = belief_.given.focal_px() * std::exp(change_[kFocal]);
   belief_.focal_sigma = estimate.sigma(kFocal);
   belief_.drive_sigma = estimate.drive_sigma[kFocal];
   belief_.bends = estimate.windows;
+  belief_.raw_learned = estimate.camera;
+  belief_.sigma = estimate.covariance.diagonal().cwiseSqrt();
   belief_.doubt = doubt_of(joint, bends, told);
   belief_.sensors = std::move(joint.agreeing);
   belief_.contradicting = std::move(joint.contradicting);
-  belief_.history.push_back({index_, time_s_, belief_.focal_px, belief_.focal_sigma});
+  belief_.history.push_back(
+      {index_, time_s_, belief_.focal_px, belief_.focal_sigma, belief_.raw_learned, belief_.sigma});
 }
 
 std::optional<std::string> CameraLearner::fault() const {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "camera/learned_lens.h"
 #include "camera/turn_learner.h"
 
 #include "oneac/calibration/intrinsics_belief.h"
@@ -22,7 +23,9 @@ class CameraLearner {
   explicit CameraLearner(const SelfCalibrationOptions& options) : options_(options) {}
 
   /// The camera of the drive's images, as given.
-  void start(const PinholeCamera& given);
+  /// @param raw  of the images as they are stored; without size, or with a lens of more than five
+  ///             terms, it is not used: what is learned is the lens of the undistorted ones then
+  void start(const PinholeCamera& given, const PinholeCamera& raw = {});
   /// The next keyframe. @return whether the camera to use has changed
   bool follow(const NewestKeyframe& keyframe, std::size_t index, double time_s);
   /// Turns by other sensors, in order of time, see TurnLearner. Not used while f is not learned.
@@ -37,6 +40,8 @@ class CameraLearner {
 
   [[nodiscard]] const CameraBelief& belief() const { return belief_; }
   [[nodiscard]] const PinholeCamera& used() const { return belief_.used; }
+  /// What the lens does beside used(), once it has been learned.
+  [[nodiscard]] std::optional<LearnedLens> lens() const;
   /// Why the given focal length cannot be right, with the cure.
   [[nodiscard]] std::optional<std::string> fault() const;
 
@@ -48,6 +53,8 @@ class CameraLearner {
   void conclude();
   /// @return whether the camera to use has changed
   bool move();
+  /// Of good cameras the bends of one in twenty say that they are.
+  [[nodiscard]] bool lens_is_doubtful() const;
   [[nodiscard]] bool learns() const { return options_.refine != "off"; }
 
   SelfCalibrationOptions options_;
@@ -55,10 +62,12 @@ class CameraLearner {
   WindowCutter cutter_;
   CameraBelief belief_;
   TurnLearner turns_;
+  PinholeCamera raw_;  ///< as given: what changes are counted from
   IntrinsicsVector change_ = IntrinsicsVector::Zero();
   bool confirmed_ = false;       ///< more than one voice tells the focal length
   double accused_sigmas_ = 0.0;  ///< the given focal length is so many σ away from what accuses it
-  bool contradicted_ = false;    ///< once: from then on the camera follows what is learned
+  bool contradicted_ = false;    ///< once: from then on the focal length follows what is learned
+  bool moves_lens_ = false;      ///< once: from then on all of the camera does
   std::size_t index_ = 0;        ///< image of the newest keyframe
   double time_s_ = 0.0;          ///< of it [s]
 };

@@ -68,8 +68,8 @@ class KeyframeMap {
   /// @param correction  when move() made a keyframe
   [[nodiscard]] FrameInMap settle(const std::optional<ScaleCorrection>& correction);
   /// See LocalMap::renormalise().
-  void renormalise(double factor) {
-    if (window_) window_->renormalise(factor);
+  void renormalise(const CameraChange& change) {
+    if (window_) window_->renormalise(change);
   }
   /// What the map says of lengths is wrong: it begins anew with the next step.
   void forget() { lost_ = true; }

@@ -235,15 +235,23 @@ void LocalMap::rescale(double factor) {
   }
 }
 
-void LocalMap::renormalise(double factor) {
-  focal_px_ /= factor;
-  sigma_ *= factor;
+void LocalMap::renormalise(const CameraChange& change) {
+  focal_px_ /= change.factor();
+  sigma_ *= change.factor();
   for (auto& [id, track] : tracks_) {
-    for (Eigen::Vector2d* x : {&track.now.x, &track.offset, &track.previous_x, &track.ray}) {
-      *x *= factor;
-    }
-    for (Sighting& seen : track.seen) seen.x *= factor;
-    track.gradient /= factor;
+    track.gradient = change.derivative(track.ray).transpose().inverse() * track.gradient;
+    const Eigen::Matrix2d began =
+        change.derivative(track.seen.empty() ? track.now.x : track.seen.front().x).inverse();
+    const Eigen::Vector2d patch = change(track.now.x - track.offset);
+    const auto move = [&](Sighting& seen) {
+      seen.shape = change.derivative(seen.x) * seen.shape * began;
+      seen.x = change(seen.x);
+    };
+    move(track.now);
+    for (Sighting& seen : track.seen) move(seen);
+    track.offset = track.now.x - patch;
+    track.previous_x = change(track.previous_x);
+    track.ray = change(track.ray);
   }
 }
 

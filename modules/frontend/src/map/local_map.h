@@ -3,6 +3,7 @@
 #include "scale/measurements.h"
 #include "track_store.h"
 
+#include "oneac/calibration/camera_change.h"
 #include "oneac/frontend/keyframe.h"
 #include "oneac/frontend/window_options.h"
 
@@ -56,9 +57,9 @@ class LocalMap {
   [[nodiscard]] KeyframePair pair_with(std::size_t steps_back) const;
   /// Multiplies all lengths, the oldest keyframe staying where it is.
   void rescale(double factor);
-  /// Another focal length from here on: the same pixels have normalised coordinates that are longer
-  /// by this factor. Poses and depths stay; the next adjustment moves them.
-  void renormalise(double factor);
+  /// Another camera from here on: the same pixels have other normalised coordinates. Poses and
+  /// depths stay; the next adjustment moves them.
+  void renormalise(const CameraChange& change);
   /// Whether the window has one keyframe more than it may.
   [[nodiscard]] bool is_over_full() const {
     return window_.size() > static_cast<std::size_t>(options_.size);

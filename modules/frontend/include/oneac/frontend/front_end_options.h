@@ -32,12 +32,13 @@ struct TiltOptions {
 
 /// What a drive may find out about its camera. Bends tell a focal length, straight roads do not.
 struct SelfCalibrationOptions {
-  /// "off": the camera stays as given; "focal": its focal length is learned as the drive goes
+  /// "off": the camera stays as given; "focal": its focal length is learned as the drive goes;
+  /// "full": its principal point, k1 and k2 as well, by which correspondences are undistorted
   std::string refine = "off";
   bool check = true;           ///< a drive whose bends contradict the focal length is not metric
   double focal_sigma = 0.03;   ///< [-] relative 1σ of the given focal length: old or resized
   double centre_sigma = 0.02;  ///< [-] 1σ of the principal point in focal lengths: 10 px of 500
-  double k1_sigma = 0.05;      ///< [-] 1σ of the distortion that is left in the images: k1 ...
+  double k1_sigma = 0.05;      ///< [-] 1σ of the given distortion: k1 ...
   double k2_sigma = 0.05;      ///< [-] ... and k2; a twentieth of the radius at 45°
   /// [deg] turn of twelve keyframes that asks them: in less, what a tracker is off by together,
   /// 0.1 px, is more than the focal length's per cent
@@ -100,15 +101,14 @@ template <class Visitor>
 void describe(Visitor&& visit, SelfCalibrationOptions& o) {
   visit("refine", o.refine, "name",
         "off: the camera as given; focal: learned from bends and, where the log has them, the "
-        "turns of gyroscope and GPS course",
-        Bound::one_of("off or focal"));
+        "turns of gyroscope and GPS course; full: principal point, k1 and k2 by bends as well",
+        Bound::one_of("off, focal or full"));
   visit("check", o.check, "bool", "bends that contradict the focal length take the metres away");
   visit("focal_sigma", o.focal_sigma, "-", "relative 1-sigma of the given focal length",
         Bound::above_to(0, 1));
   visit("centre_sigma", o.centre_sigma, "-", "1-sigma of the principal point, in focal lengths",
         Bound::above_to(0, 1));
-  visit("k1_sigma", o.k1_sigma, "-", "1-sigma of the distortion left in the images: k1",
-        Bound::above_to(0, 1));
+  visit("k1_sigma", o.k1_sigma, "-", "1-sigma of the given distortion: k1", Bound::above_to(0, 1));
   visit("k2_sigma", o.k2_sigma, "-", "the same of k2", Bound::above_to(0, 1));
   visit("min_turn_deg", o.min_turn_deg, "deg", "turn within twelve keyframes that is a bend",
         Bound::between(0, 90));
