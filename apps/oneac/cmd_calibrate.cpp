@@ -103,6 +103,8 @@ void add_calibrate(CLI::App& program) {
   verb->add_option("--fov-deg", flags->options.fov_deg,
                    "guess of the horizontal field of view, instead of the log's calibration; "
                    "60 where there is neither");
+  verb->add_flag("--fisheye", flags->options.fisheye,
+                 "begin with a fisheye (Kannala-Brandt) of this field of view; 120 without one");
   verb->add_option("--passes", flags->options.passes, "over the drive, at most")
       ->capture_default_str();
   add_parameters(*verb, flags->parameter_files, flags->settings);

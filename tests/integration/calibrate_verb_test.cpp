@@ -257,7 +257,32 @@ TEST_F(CalibrateVerb, LensThatARunHasLearnedIsItsCameraIni) {
   EXPECT_LT(said["k1_sigma"].get<double>(), 0.03);
 }
 
+TEST_F(CalibrateVerb, FisheyeOfARunIsWrittenAsOne) {
+  const std::string log = simulate({"--frames", "110"});
+  const std::string fisheye = folder("fisheye.ini");
+  std::ofstream(fisheye) << "[CAMERA_PARAMS]\nresolution = [320 240]\ncx = 159.5\ncy = 119.5\n"
+                            "fx = 250\nfy = 250\ndistortion = kannala_brandt\n"
+                            "dist = [0.3 0 0 0 0 0 0 0]\n";  // near a pinhole, tan θ
+  const std::string ini = folder("camera.ini");
+  const ProgramResult result = run_program(
+      {ONEAC_PROGRAM, "calibrate", log, "-o", ini, "--calibration", fisheye, "--passes", "1"});
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_NE(result.out.find("fisheye with k3 = 0"), std::string::npos) << result.out;
+  const std::string text = text_of(ini);
+  EXPECT_NE(text.find("distortion = kannala_brandt"), std::string::npos) << text;
+  EXPECT_NEAR(value_of(text, "fx"), 250.0, 250.0 * 0.03) << text;
+  EXPECT_EQ(run_program({ONEAC_PROGRAM, "run", log, "-o", folder("out"), "--calibration", ini,
+                         "--count", "5"})
+                .exit_code,
+            0);
+}
+
 TEST_F(CalibrateVerb, RefusesAFieldOfViewThatNoCameraHas) {
+  const ProgramResult fisheye =
+      run_program({ONEAC_PROGRAM, "calibrate", "a.rawlog", "-o", folder("camera.ini"), "--fisheye",
+                   "--fov-deg", "230"});
+  EXPECT_EQ(fisheye.exit_code, 2);
+  EXPECT_NE(fisheye.err.find("to 220"), std::string::npos) << fisheye.err;
   const ProgramResult result = run_program(
       {ONEAC_PROGRAM, "calibrate", "a.rawlog", "-o", folder("camera.ini"), "--fov-deg", "200"});
   EXPECT_EQ(result.exit_code, 2);

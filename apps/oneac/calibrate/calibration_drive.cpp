@@ -6,7 +6,6 @@
 #include "oneac/base/number_text.h"
 #include "oneac/calibration/focal_evidence.h"
 #include "oneac/geometry/angles.h"
-#include "oneac/geometry/lens.h"
 
 #include <algorithm>
 #include <cmath>
@@ -16,7 +15,7 @@ namespace oneac::app {
 namespace {
 
 // [deg] field of view taken where nobody guesses one: dashcams and robots' cameras have 45 to 90.
-constexpr double kUsualFov_deg = 60.0;
+constexpr double kUsualFov_deg = 60.0, kUsualFisheye_deg = 120.0;
 // [-] 1σ of ln f of such a guess, and of a calibration that came with the log.
 constexpr double kGuessSigma = 0.3, kCalibrationSigma = 0.1;
 // [m] assumed of a camera above the road until metres tell: between cars and vans.
@@ -47,11 +46,13 @@ Pass drive_once(const RunOptions& options) {
   return pass;
 }
 
-PinholeCamera camera_of_view(const GreyImage& image, double fov_deg) {
+PinholeCamera camera_of_view(const GreyImage& image, double fov_deg, bool fisheye) {
   PinholeCamera camera;
   camera.width = image.width();
   camera.height = image.height();
-  camera.fx = camera.fy = 0.5 * image.width() / std::tan(0.5 * fov_deg * kDegree);
+  const double half = 0.5 * fov_deg * kDegree;
+  camera.fx = camera.fy = 0.5 * image.width() / (fisheye ? half : std::tan(half));
+  if (fisheye) camera.lens = LensModel::kannala_brandt;
   camera.cx = 0.5 * (image.width() - 1);
   camera.cy = 0.5 * (image.height() - 1);
   return camera;
@@ -67,32 +68,23 @@ CameraFrame first_frame(const RunOptions& options, bool any_camera) {
   return log.load(*ticket);
 }
 
-/// @throws InputError for a lens that calibrate cannot learn
-void check_lens(const PinholeCamera& camera, const std::string& log) {
-  if (is_five_term_lens(camera)) return;
-  throw InputError(log, "its lens is a fisheye or has k4, k5 or k6, which are not learned",
-                   "give --fov-deg to begin with a plumb-bob lens, or keep its calibration");
-}
-
 /// The log's camera, or one of the guessed field of view.
 Calibration start_of(const CalibrateOptions& options) {
   Calibration start;
   start.prior = {kCalibrationSigma, kCentreSigma, kDistortionSigma, kDistortionSigma};
   start.given_sigma = options.run.front_end.self_calibration.focal_sigma;
-  if (!options.fov_deg) {
+  if (!options.fov_deg && !options.fisheye) {
     try {
       start.guess = first_frame(options.run, false).raw_camera;
     } catch (const InputError&) {
       start.guess.fx = 0.0;  // no calibration, most likely; another fault comes again below
     }
-    if (start.guess.fx > 0.0) {
-      check_lens(start.guess, options.run.log);
-      return start;
-    }
+    if (start.guess.fx > 0.0) return start;
   }
   start.prior.focal = start.given_sigma = kGuessSigma;
-  start.guess =
-      camera_of_view(first_frame(options.run, true).image, options.fov_deg.value_or(kUsualFov_deg));
+  const double fov_deg =
+      options.fov_deg.value_or(options.fisheye ? kUsualFisheye_deg : kUsualFov_deg);
+  start.guess = camera_of_view(first_frame(options.run, true).image, fov_deg, options.fisheye);
   return start;
 }
 
@@ -177,8 +169,11 @@ void CalibrateOptions::validate() {
     throw InputError("calibrate", "no rawlog given", "oneac calibrate LOG -o camera.ini");
   }
   if (output.empty()) throw InputError("calibrate", "no output given", "add -o camera.ini");
-  if (fov_deg && !(*fov_deg >= 10.0 && *fov_deg <= 150.0)) {
-    throw InputError("--fov-deg " + fixed_text(*fov_deg, 1), "it must be from 10 to 150", "");
+  const double widest_deg = fisheye ? 220.0 : 150.0;
+  if (fov_deg && !(*fov_deg >= 10.0 && *fov_deg <= widest_deg)) {
+    throw InputError("--fov-deg " + fixed_text(*fov_deg, 1),
+                     "it must be from 10 to " + fixed_text(widest_deg, 0),
+                     fisheye ? "" : "a wider lens is a --fisheye");
   }
   if (passes < 1) throw InputError("--passes " + std::to_string(passes), "at least 1", "");
 }

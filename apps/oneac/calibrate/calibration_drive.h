@@ -18,6 +18,7 @@ struct CalibrateOptions {
   RunOptions run;
   std::string output;             ///< camera.ini
   std::optional<double> fov_deg;  ///< horizontal field of view that somebody guesses
+  bool fisheye = false;           ///< of such a guess: Kannala and Brandt's lens
   int passes = 4;  ///< over the drive, at most: each tracks with the camera of the last
 
   /// @throws InputError naming flag, value and bound

@@ -172,9 +172,23 @@ std::string sensors_text(const CameraHeight& height) {
   return text;
 }
 
-/// One per sensor that told something, or that cannot be what it says.
-std::vector<std::string> turn_lines(const Calibration& c) {
+/// The terms of a lens that are not learned; empty for one that has none.
+std::string about_other_terms(const PinholeCamera& camera) {
+  const auto& k = camera.distortion;
+  if (camera.lens == LensModel::kannala_brandt) {
+    return "fisheye with k3 = " + exact_text(k[2]) + ", k4 = " + exact_text(k[3]) +
+           " as given: k2 has what they leave";
+  }
+  const bool any = std::any_of(k.begin() + 2, k.end(), [](double term) { return term != 0.0; });
+  return any ? "p1, p2 and k3 to k6 as given: k2 has what they leave" : "";
+}
+
+/// What is not learned of the lens, then one per sensor that told something, or that cannot be what
+/// it says.
+std::vector<std::string> more_lines(const Calibration& c) {
   std::vector<std::string> lines;
+  const std::string others = about_other_terms(c.estimate.camera);
+  if (!others.empty()) lines.push_back(others);
   for (const TurnEvidence& turn : c.turns) lines.push_back(text_of(turn, c.drive.raw_camera.fx));
   for (const std::string& sensor : c.contradicting) {
     lines.push_back(sensor +
@@ -245,7 +259,7 @@ std::string camera_ini(const Calibration& c, const std::string& log) {
   std::vector<std::string> remarks = {"made by oneac calibrate (oneac " + version() + ") of " + log,
                                       verdict_of(c)};
   for (const Line& line : lines_of(c)) remarks.push_back(text_of(line));
-  for (const std::string& line : turn_lines(c)) remarks.push_back(line);
+  for (const std::string& line : more_lines(c)) remarks.push_back(line);
   remarks.push_back(mount_line(c));
   remarks.push_back(height_verdict(c.height));
   return calibration_text(c.estimate.camera, remarks);
@@ -254,7 +268,7 @@ std::string camera_ini(const Calibration& c, const std::string& log) {
 std::string calibration_summary(const Calibration& c) {
   std::string text;
   for (const Line& line : lines_of(c)) text += text_of(line) + "\n";
-  for (const std::string& line : turn_lines(c)) text += line + "\n";
+  for (const std::string& line : more_lines(c)) text += line + "\n";
   return text + mount_line(c) + "\n" + height_verdict(c.height) + "\n" + verdict_of(c) + "\n";
 }
 
@@ -266,7 +280,7 @@ std::string calibration_html(const Calibration& c, const std::string& log) {
               {"bends", std::to_string(c.bends.size())},
               {"passes", std::to_string(c.passes)}});
   page.table(unknowns_table(c));
-  for (const std::string& line : turn_lines(c)) page.paragraph(line);
+  for (const std::string& line : more_lines(c)) page.paragraph(line);
   page.paragraph(mount_line(c));
   page.paragraph(height_verdict(c.height));
   if (!c.bends.empty()) page.table(bends_table(c));

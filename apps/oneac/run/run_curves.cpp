@@ -2,6 +2,7 @@
 
 #include "reference_track.h"
 
+#include "oneac/calibration/intrinsics_belief.h"
 #include "oneac/evaluation/pair_errors.h"
 #include "oneac/geometry/angles.h"
 #include "oneac/report/thinned_series.h"
@@ -234,7 +235,7 @@ std::vector<Plot> camera_plots(const DriveRecord& record) {
   add_learned(record, "by the bends", plots[0], [](const CameraMoment& moment) {
     return std::pair(moment.focal_px, moment.focal_sigma * moment.focal_px);
   });
-  if (belief.bends < 2) return plots;
+  if (!belief.knows_raw || belief.bends < IntrinsicsBelief::kFewestWindows) return plots;
   plots.push_back({"Principal point by the bends, off the given one", "time [s]", "px", {}});
   const auto add_centre = [&](const char* label, double PinholeCamera::*which, Intrinsic unknown) {
     add_learned(record, label, plots[1], [&, which, unknown](const CameraMoment& moment) {

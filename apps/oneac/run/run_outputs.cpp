@@ -9,7 +9,6 @@
 #include "oneac/base/version.h"
 #include "oneac/frontend/map_formats.h"
 #include "oneac/geometry/angles.h"
-#include "oneac/geometry/lens.h"
 #include "oneac/rawlog/calibration_writer.h"
 #include "oneac/report/overlay.h"
 #include "oneac/report/table.h"
@@ -228,8 +227,8 @@ std::string about_used_camera(const DriveRecord& record) {
 }  // namespace
 
 std::string used_camera_ini(const DriveRecord& record, const std::string& log) {
-  if (!is_five_term_lens(record.raw_camera)) return "";
   const CameraBelief& belief = record.camera_belief;
+  if (!belief.knows_raw) return "";
   return calibration_text(belief.raw_used,
                           {"used by oneac run (oneac " + version() + ") at the end of " + log,
                            about_used_camera(record)});

@@ -150,7 +150,7 @@ Json learned_json(const DriveRecord& record) {
                {"focal_by_bends_px", nullptr},
                {"focal_sigma", belief.focal_sigma}};
   if (belief.knows_focal()) json["focal_by_bends_px"] = belief.focal_px;
-  if (belief.bends < IntrinsicsBelief::kFewestWindows) return json;
+  if (!belief.knows_raw || belief.bends < IntrinsicsBelief::kFewestWindows) return json;
   const PinholeCamera& c = belief.raw_learned;
   const double px = record.raw_camera.focal_px();
   json["raw_camera_by_bends"] = {{"fx_px", c.fx},

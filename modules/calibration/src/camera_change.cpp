@@ -38,8 +38,7 @@ PinholeCamera pinhole_of(const PinholeCamera& given, const PinholeCamera& raw,
                          const PinholeCamera& used) {
   PinholeCamera pinhole = given;
   const double longer = used.focal_px() / raw.focal_px();
-  const Eigen::Vector2d centre =
-      given.project(CameraChange(used, raw)(Eigen::Vector2d::Zero()));
+  const Eigen::Vector2d centre = given.project(CameraChange(used, raw)(Eigen::Vector2d::Zero()));
   pinhole.fx *= longer;
   pinhole.fy *= longer;
   pinhole.cx = centre.x();

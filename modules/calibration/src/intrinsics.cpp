@@ -1,6 +1,6 @@
 #include "oneac/calibration/intrinsics.h"
 
-#include "distortion.h"
+#include "oneac/geometry/lens.h"
 
 #include <cmath>
 #include <limits>
@@ -30,24 +30,12 @@ IntrinsicsVector change_between(const PinholeCamera& from, const PinholeCamera& 
 }
 
 Eigen::Vector2d project_distorted(const PinholeCamera& camera, const Eigen::Vector2d& x) {
-  double distorted[2];
-  distort(camera.distortion.data(), x.x(), x.y(), distorted);
-  return camera.project({distorted[0], distorted[1]});
+  return camera.project(distorted(camera, x));
 }
 
 Eigen::Vector2d normalise_distorted(const PinholeCamera& camera, const Eigen::Vector2d& u) {
-  constexpr int kIterations = 50;
-  constexpr double kTolerance = 1e-10;
-  const Eigen::Vector2d wanted = camera.normalise(u);
-  Eigen::Vector2d x = wanted;
-  for (int i = 0; i < kIterations && x.allFinite(); ++i) {
-    double distorted[2];
-    distort(camera.distortion.data(), x.x(), x.y(), distorted);
-    const Eigen::Vector2d missing = wanted - Eigen::Vector2d(distorted[0], distorted[1]);
-    if (missing.norm() < kTolerance) return x;
-    x += missing;
-  }
-  return Eigen::Vector2d::Constant(std::numeric_limits<double>::quiet_NaN());
+  const auto x = undistorted(camera, camera.normalise(u));
+  return x ? *x : Eigen::Vector2d::Constant(std::numeric_limits<double>::quiet_NaN());
 }
 
 }  // namespace oneac

@@ -1,6 +1,6 @@
 #include "window_costs.h"
 
-#include "distortion.h"
+#include "oneac/geometry/lens_model.h"
 
 #include <ceres/autodiff_cost_function.h>
 #include <ceres/normal_prior.h>
@@ -8,7 +8,9 @@
 
 #include <Eigen/Cholesky>
 
+#include <array>
 #include <cmath>
+#include <cstddef>
 
 namespace oneac {
 namespace {
@@ -45,10 +47,12 @@ struct Reprojection {
   template <typename T>
   void project(const T* change, const T* X, T* residual) const {
     using std::exp;
-    const T k[5] = {from.distortion[0] + change[kK1], from.distortion[1] + change[kK2],
-                    T(from.distortion[2]), T(from.distortion[3]), T(from.distortion[4])};
+    std::array<T, 8> k;
+    for (std::size_t i = 0; i < k.size(); ++i) k[i] = T(from.distortion[i]);
+    k[0] += change[kK1];
+    k[1] += change[kK2];
     T distorted[2];
-    distort(k, T(X[0] / X[2]), T(X[1] / X[2]), distorted);
+    distort(from.lens, k.data(), T(X[0] / X[2]), T(X[1] / X[2]), distorted);
     const T factor = exp(change[kFocal]);
     residual[0] =
         weight * (from.fx * factor * distorted[0] + from.cx + focal * change[kCentreX] - u.x());

@@ -22,9 +22,9 @@ TEST(CameraChange, KeepsThePixel) {
   for (const Eigen::Vector2d& x : {Eigen::Vector2d(0.5, 0.2), Eigen::Vector2d(-0.7, -0.1)}) {
     EXPECT_LT((project_distorted(to, change(x)) - from.project(x)).norm(), 1e-6);
     EXPECT_LT((back(change(x)) - x).norm(), 1e-9);
-    EXPECT_LT((back.derivative(change(x)) * change.derivative(x) - Eigen::Matrix2d::Identity())
-                  .norm(),
-              1e-5);
+    EXPECT_LT(
+        (back.derivative(change(x)) * change.derivative(x) - Eigen::Matrix2d::Identity()).norm(),
+        1e-5);
   }
   EXPECT_NEAR(change.factor(), 1.0 / std::exp(0.04), 1e-12);
 }

@@ -46,6 +46,24 @@ TEST(MeasureIntrinsics, FindsTheCameraOfABendWithoutNoise) {
   }
 }
 
+TEST(MeasureIntrinsics, FindsAFisheyeOfABend) {
+  PinholeCamera truth = true_camera();
+  truth.lens = LensModel::kannala_brandt;
+  truth.distortion = {-0.03, 0.01, -0.002, 0.0005};
+  PinholeCamera guess = truth;
+  guess.fx = guess.fy = 1.05 * truth.fx;
+  guess.distortion[0] = guess.distortion[1] = 0.0;
+  const CalibrationWindow window = synthetic_window(bend(), truth);
+  const auto measured = measure_intrinsics(window, guess, kHere, vague(), {});
+  ASSERT_TRUE(measured);
+  const PinholeCamera found = changed(guess, measured->change);
+  EXPECT_EQ(found.lens, LensModel::kannala_brandt);
+  EXPECT_NEAR(found.fx / truth.fx, 1.0, 1e-3);
+  EXPECT_NEAR(found.distortion[0], truth.distortion[0], 2e-3);
+  EXPECT_NEAR(found.distortion[1], truth.distortion[1], 3e-3);
+  EXPECT_EQ(found.distortion[2], truth.distortion[2]) << "is not learned";
+}
+
 TEST(MeasureIntrinsics, AStraightRoadLeavesTheFocalLengthToThePrior) {
   SyntheticDrive straight;
   straight.noise_px = 0.2;

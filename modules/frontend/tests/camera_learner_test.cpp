@@ -147,17 +147,36 @@ TEST(CameraLearner, LearnsALensWhenAskedToOfRawImages) {
   EXPECT_LT(learner.belief().sigma[kK1], 0.02);
 }
 
-TEST(CameraLearner, LearnsTheLensOfUndistortedImagesWhereTheirsHasMoreTerms) {
+TEST(CameraLearner, LooksAtUndistortedImagesWhereALongerFocalLengthIsNoOtherLens) {
   SelfCalibrationOptions options;
-  options.refine = "full";
+  options.refine = "focal";
   PinholeCamera fisheye = true_camera(), truth = true_camera();
   fisheye.lens = LensModel::kannala_brandt;
   truth.distortion[0] = 0.06;
   CameraLearner learner(options);
   learner.start(true_camera(), fisheye);
   drive_with(learner, 0.03, truth);
+  EXPECT_FALSE(learner.belief().knows_raw);
   EXPECT_EQ(learner.belief().raw_learned.lens, LensModel::plumb_bob);
   EXPECT_NEAR(learner.belief().raw_learned.distortion[0], 0.06, 0.02);
+}
+
+TEST(CameraLearner, LearnsAFisheyeOfRawImages) {
+  SelfCalibrationOptions options;
+  options.refine = "full";
+  PinholeCamera given = true_camera();
+  given.lens = LensModel::kannala_brandt;
+  PinholeCamera truth = given;
+  truth.distortion[0] = -0.06;
+  truth.cx += 8.0;
+  CameraLearner learner(options);
+  learner.start(true_camera(), given);
+  for (int i = 0; i < 2; ++i) drive_with(learner, 0.03, truth, given);
+  ASSERT_TRUE(learner.lens().has_value());
+  EXPECT_TRUE(learner.belief().knows_raw);
+  EXPECT_EQ(learner.belief().raw_used.lens, LensModel::kannala_brandt);
+  EXPECT_NEAR(learner.belief().raw_used.distortion[0], -0.06, 0.02);
+  EXPECT_NEAR(learner.belief().raw_used.cx, truth.cx, 2.0);
 }
 
 TEST(CameraLearner, KeepsALensThatBendsDoNotContradict) {

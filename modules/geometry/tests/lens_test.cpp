@@ -35,6 +35,28 @@ TEST(Lens, FollowsTheFisheyesAngle) {
   EXPECT_TRUE(distorted(camera, {0, 0}).isZero());
 }
 
+TEST(Lens, UndistortingUndoesIt) {
+  for (const PinholeCamera& camera :
+       {camera_with({-0.2, 0.1, 0.01, 0.02, 0.05, 0.01, 0.02, 0.04}),
+        camera_with({0.05, -0.01, 0.003, -0.001}, LensModel::kannala_brandt),
+        camera_with({}, LensModel::kannala_brandt)}) {
+    const double widest = camera.lens == LensModel::kannala_brandt ? 6.0 : 0.8;
+    for (double r = 0.0; r <= widest; r += widest / 16) {
+      const Eigen::Vector2d x(0.6 * r, -0.8 * r);
+      const auto back = undistorted(camera, distorted(camera, x));
+      ASSERT_TRUE(back.has_value()) << r;
+      EXPECT_LT((*back - x).norm(), 1e-7 * (1.0 + r * r)) << r;
+    }
+  }
+}
+
+TEST(Lens, NoDirectionOfAPinholeCameraIsBesideOrBehindIt) {
+  const PinholeCamera fisheye = camera_with({}, LensModel::kannala_brandt);
+  EXPECT_FALSE(undistorted(fisheye, {1.6, 0.0}).has_value());
+  EXPECT_FALSE(undistorted(camera_with({-0.5}), {0.9, 0.0}).has_value()) << "beyond the fold";
+  EXPECT_FALSE(undistorted(fisheye, {NAN, 0.0}).has_value());
+}
+
 TEST(Lens, HasFiveTermsOnlyWithoutOthers) {
   EXPECT_TRUE(is_five_term_lens(camera_with({-0.2, 0.1, 0.01, 0.02, 0.1})));
   EXPECT_FALSE(is_five_term_lens(camera_with({0, 0, 0, 0, 0, 0, 0, 1e-9})));

@@ -2,6 +2,7 @@
 
 #include "log_maker.h"
 
+#include "oneac/rawlog/calibration_writer.h"
 #include "oneac/test_support/temporary_folder.h"
 
 #include <gtest/gtest.h>
@@ -78,6 +79,20 @@ TEST_F(Calibration, ReadsWhatMrptWrites) {
   const auto camera = load_calibration(name, "right");
   EXPECT_DOUBLE_EQ(camera.fy, 501);
   EXPECT_DOUBLE_EQ(camera.distortion[0], 0.1);
+}
+
+TEST_F(Calibration, ReadsWhatItWrites) {
+  PinholeCamera camera{640, 480, 400.125, 401.0, 320.5, 239.75, {}, LensModel::plumb_bob};
+  for (const LensModel lens : {LensModel::plumb_bob, LensModel::kannala_brandt}) {
+    camera.lens = lens;
+    camera.distortion = {-0.01, 0.002, -0.003, 0.0004};
+    const auto read =
+        load_calibration(file("own.ini", calibration_text(camera, {"by a test"})), "");
+    EXPECT_EQ(read.lens, lens);
+    EXPECT_EQ(read.distortion, camera.distortion);
+    EXPECT_EQ(read.fx, camera.fx);
+    EXPECT_EQ(read.cy, camera.cy);
+  }
 }
 
 TEST_F(Calibration, RefusesOtherLensModels) {

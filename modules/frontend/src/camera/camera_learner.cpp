@@ -45,10 +45,15 @@ double doubt_of(const JointEstimate& joint, const IntrinsicsEstimate& bends,
 }  // namespace
 
 void CameraLearner::start(const PinholeCamera& given, const PinholeCamera& raw) {
-  const bool knows_lens = raw.width > 0 && is_five_term_lens(raw);
+  // A longer focal length is none of other lenses: theirs is that of undistorted images, unless
+  // all of the lens is learned.
+  const bool five = is_five_term_lens(raw);
+  const bool knows_raw = raw.width > 0 && (five || options_.refine == "full");
+  scales_ = five || !knows_raw;
   belief_ = {};
   belief_.given = belief_.used = given;
-  belief_.raw_used = belief_.raw_learned = raw_ = knows_lens ? raw : given;
+  belief_.raw_used = belief_.raw_learned = raw_ = knows_raw ? raw : given;
+  belief_.knows_raw = knows_raw;
   belief_.focal_px = given.focal_px();
   belief_.focal_sigma = options_.focal_sigma;
   intrinsics_.emplace(raw_, prior());
@@ -82,7 +87,7 @@ bool CameraLearner::move() {
   if (!learns()) return false;
   // A camera that was calibrated well is better than a bend's half per cent.
   const bool focal = std::abs(change_[kFocal]) >= kDoubtful * belief_.focal_sigma;
-  contradicted_ = contradicted_ || (confirmed_ && focal);
+  contradicted_ = contradicted_ || (confirmed_ && focal && scales_);
   moves_lens_ = moves_lens_ || lens_is_doubtful();
   if (!contradicted_ && !moves_lens_) return false;
   belief_.raw_used =

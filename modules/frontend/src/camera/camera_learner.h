@@ -23,8 +23,9 @@ class CameraLearner {
   explicit CameraLearner(const SelfCalibrationOptions& options) : options_(options) {}
 
   /// The camera of the drive's images, as given.
-  /// @param raw  of the images as they are stored; without size, or with a lens of more than five
-  ///             terms, it is not used: what is learned is the lens of the undistorted ones then
+  /// @param raw  of the images as they are stored; without size what is learned is the lens of the
+  ///             undistorted ones, and so it is of a lens of other than five terms unless
+  ///             `refine` is "full"
   void start(const PinholeCamera& given, const PinholeCamera& raw = {});
   /// The next keyframe. @return whether the camera to use has changed
   bool follow(const NewestKeyframe& keyframe, std::size_t index, double time_s);
@@ -66,6 +67,7 @@ class CameraLearner {
   IntrinsicsVector change_ = IntrinsicsVector::Zero();
   bool confirmed_ = false;       ///< more than one voice tells the focal length
   double accused_sigmas_ = 0.0;  ///< the given focal length is so many σ away from what accuses it
+  bool scales_ = true;           ///< another focal length alone stretches the image
   bool contradicted_ = false;    ///< once: from then on the focal length follows what is learned
   bool moves_lens_ = false;      ///< once: from then on all of the camera does
   std::size_t index_ = 0;        ///< image of the newest keyframe

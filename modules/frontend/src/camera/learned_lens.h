@@ -11,8 +11,8 @@ class LearnedLens {
  public:
   /// @param given, used  pinhole cameras of the undistorted images
   /// @param raw_given, raw_used  cameras of the images as they are stored
-  LearnedLens(const PinholeCamera& given, const PinholeCamera& used,
-              const PinholeCamera& raw_given, const PinholeCamera& raw_used)
+  LearnedLens(const PinholeCamera& given, const PinholeCamera& used, const PinholeCamera& raw_given,
+              const PinholeCamera& raw_used)
       : to_given_(used, given), lens_(raw_given, raw_used) {}
 
   /// The pair, normalised by the pinhole camera, as the lens sees it: points and affinities.

@@ -2,6 +2,9 @@
 
 #include "oneac/base/number_text.h"
 
+#include <array>
+#include <cstddef>
+
 namespace oneac {
 
 std::string calibration_text(const PinholeCamera& camera, const std::vector<std::string>& remarks) {
@@ -11,9 +14,15 @@ std::string calibration_text(const PinholeCamera& camera, const std::vector<std:
   text +=
       "resolution = [" + std::to_string(camera.width) + " " + std::to_string(camera.height) + "]\n";
   text += "cx = " + exact_text(camera.cx) + "\ncy = " + exact_text(camera.cy) + "\n";
-  text += "fx = " + exact_text(camera.fx) + "\nfy = " + exact_text(camera.fy) + "\ndist = [";
-  for (std::size_t i = 0; i < camera.distortion.size(); ++i) {
-    text += (i == 0 ? "" : " ") + exact_text(camera.distortion[i]);
+  text += "fx = " + exact_text(camera.fx) + "\nfy = " + exact_text(camera.fy) + "\n";
+  std::array<double, 8> dist = camera.distortion;
+  if (camera.lens == LensModel::kannala_brandt) {
+    text += "distortion = kannala_brandt\n";
+    dist = {dist[0], dist[1], 0.0, 0.0, dist[2], dist[3], 0.0, 0.0};  // in MRPT's places
+  }
+  text += "dist = [";
+  for (std::size_t i = 0; i < dist.size(); ++i) {
+    text += (i == 0 ? "" : " ") + exact_text(dist[i]);
   }
   return text + "]\n";
 }

@@ -6,8 +6,7 @@
 
 namespace oneac {
 
-/// The same pixels by another camera: what becomes of normalised coordinates. Lenses count with
-/// their five plumb-bob terms.
+/// The same pixels by another camera: what becomes of normalised coordinates.
 class CameraChange {
  public:
   CameraChange(const PinholeCamera& from, const PinholeCamera& to) : from_(from), to_(to) {}
@@ -25,7 +24,8 @@ class CameraChange {
 };
 
 /// The camera of the same raw images that sees them `factor` times as far away: all angles to the
-/// axis become as much smaller, whatever the lens does to them.
+/// axis become as much smaller, whatever the lens does to them. Of five terms, see
+/// is_five_term_lens().
 [[nodiscard]] PinholeCamera with_longer_focal(PinholeCamera camera, double factor);
 
 /// The pinhole camera nearest to what directions by `used` are in images undistorted by `raw`: they

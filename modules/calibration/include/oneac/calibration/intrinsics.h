@@ -8,8 +8,8 @@
 
 namespace oneac {
 
-/// What of a camera can be learned, in the order of IntrinsicsVector. The ratio fy / fx, p1, p2 and
-/// k3 stay as they are.
+/// What of a camera can be learned, in the order of IntrinsicsVector. The ratio fy / fx and the
+/// lens's other terms stay as they are.
 enum Intrinsic : Eigen::Index { kFocal, kCentreX, kCentreY, kK1, kK2, kIntrinsics };
 
 /// A change of a camera, all without unit: ln(f / f₀), (cx − cx₀) / f₀, (cy − cy₀) / f₀, k1 − k1₀,
@@ -22,10 +22,10 @@ using IntrinsicsMatrix = Eigen::Matrix<double, kIntrinsics, kIntrinsics>;
 /// The change that makes `to` of `from`, where they differ in nothing else.
 [[nodiscard]] IntrinsicsVector change_between(const PinholeCamera& from, const PinholeCamera& to);
 
-/// Normalised coordinates to the pixel of a raw image, by all of OpenCV's plumb-bob model.
+/// Normalised coordinates to the pixel of a raw image, by any LensModel.
 [[nodiscard]] Eigen::Vector2d project_distorted(const PinholeCamera& camera,
                                                 const Eigen::Vector2d& x);
-/// The inverse, by fixed-point iteration; not finite where the model folds over.
+/// The inverse; not finite where the model folds over.
 [[nodiscard]] Eigen::Vector2d normalise_distorted(const PinholeCamera& camera,
                                                   const Eigen::Vector2d& u);
 

@@ -29,8 +29,10 @@ struct CameraBelief {
   std::size_t bends = 0;                   ///< windows with a bend that were measured
   std::vector<std::string> sensors;        ///< whose turns count, too: "gyroscope", "GPS course"
   std::vector<std::string> contradicting;  ///< whose turns contradict, so that focal_sigma is wide
-  double doubt = 0.0;         ///< relative 1σ that lengths by the given one have by what bends say
-  PinholeCamera raw_used;     ///< of the images as they are stored, from the newest frame on
+  double doubt = 0.0;  ///< relative 1σ that lengths by the given one have by what bends say
+  /// The next two are of the images as they are stored; else of undistorted ones.
+  bool knows_raw = false;
+  PinholeCamera raw_used;     ///< from the newest frame on
   PinholeCamera raw_learned;  ///< the same, most probable by bends, its principal point, k1 and k2
   IntrinsicsVector sigma = IntrinsicsVector::Zero();  ///< 1σ of that, without unit
   std::vector<CameraMoment> history;
