@@ -6,6 +6,7 @@
 
 #include "oneac/base/atomic_file.h"
 #include "oneac/base/error.h"
+#include "oneac/base/input_file.h"
 #include "oneac/base/printable.h"
 
 #include <CLI/CLI.hpp>
@@ -35,6 +36,11 @@ std::filesystem::path height_file(const std::filesystem::path& file) {
 
 /// One that no calibration has made is nobody's to overwrite.
 void require_own(const std::filesystem::path& file) {
+  const std::string fault = fault_of_file(file);
+  if (!fault.empty() && fault != "no such file") {
+    throw InputError(file.string(), fault + ", where a file is to be written",
+                     "give another name with -o");
+  }
   if (is_made_by_calibrate(file)) return;
   throw InputError(file.string(), "it exists, and oneac calibrate has not made it",
                    "move it away, or give another name with -o");
@@ -77,7 +83,9 @@ void run(CalibrateFlags& flags) {
   require_not_the_log(file, options.run.log);
   require_writable_folder(folder.string());
   require_no_run(folder);
-  require_own(height_file(file));
+  for (const std::filesystem::path& own : {file, height_file(file), folder / "report.html"}) {
+    require_own(own);
+  }
   catch_interrupts();
   const Calibration calibration = calibrate_camera(options);
   fail_if_empty(calibration.drive, options.run.log);

@@ -9,11 +9,13 @@
 #include <CLI/CLI.hpp>
 
 #include <algorithm>
+#include <filesystem>
 #include <iostream>
 #include <map>
 #include <memory>
 #include <optional>
 #include <string>
+#include <system_error>
 #include <vector>
 
 namespace oneac::app {
@@ -52,6 +54,19 @@ std::vector<CLI::Option*> add_mount(CLI::App& verb, MountAngles& mount,
 
 constexpr const char* kCalibration =
     "FILE[:SECTION] of MRPT, KITTI, OpenCV, ROS, Kalibr, COLMAP or ORB-SLAM";
+
+/// Before folders are made for what cannot be written.
+CLI::Validator names_a_file() {
+  return {[](std::string& text) {
+            const std::filesystem::path file(text);
+            std::error_code ignored;
+            const bool folder =
+                !file.has_filename() || std::filesystem::is_directory(file, ignored);
+            return folder ? "'" + printable(text) + "' is a folder; name the rawlog to write"
+                          : std::string();
+          },
+          ""};
+}
 
 void add_rate(CLI::App& verb, std::optional<double>& fps) {
   verb.add_option("--fps", fps, "Images per second, instead of the source's own times, 0.5 to 250");
@@ -219,6 +234,9 @@ void add_import(CLI::App& program) {
              "cam0/data, cam0/sensor.yaml",
              import_euroc);
   add_folder(*verb, "tum", "TUM RGB-D sequence", "Folder with rgb.txt and rgb", import_tum);
+  for (CLI::App* importer : verb->get_subcommands({})) {
+    importer->get_option("--output")->check(names_a_file());
+  }
 }
 
 }  // namespace oneac::app

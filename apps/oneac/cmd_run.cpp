@@ -15,6 +15,8 @@
 #include "oneac/base/input_file.h"
 #include "oneac/base/printable.h"
 #include "oneac/comparison/plugin.h"
+#include "oneac/evaluation/trajectory_io.h"
+#include "oneac/rawlog/calibration.h"
 
 #include <CLI/CLI.hpp>
 
@@ -49,6 +51,15 @@ void require_log(const std::string& log) {
   if (!fault.empty()) throw InputError(log, fault, "check the name of the log");
 }
 
+/// The same of what is read beside the log.
+void require_inputs(const RunOptions& options) {
+  if (!options.run.reference.empty()) static_cast<void>(read_trajectory(options.run.reference));
+  const SourceParameters& source = options.source;
+  if (!source.calibration.empty()) {
+    static_cast<void>(load_calibration(source.calibration, source.camera));
+  }
+}
+
 /// What the flags ask for, in one place.
 void settle(RunFlags& flags) {
   RunOptions& options = flags.options;
@@ -61,13 +72,13 @@ void settle(RunFlags& flags) {
   if (options.output.empty()) throw InputError("run", "no output folder given", "add -o DIR");
   require_writable_folder(options.output);
   for (const std::string& log : flags.logs) require_log(log);
+  require_inputs(options);
 }
 
 void run_one(RunFlags& flags) {
   RunOptions& options = flags.options;
   options.log = flags.logs.front();
-  if (learns_camera(options)) require_no_other_camera(options.output);
-  require_no_other_results(options.output);
+  require_own_results({options.output, learns_camera(options), inputs_of(options)});
   clear_of_earlier_run(options.output);
   catch_interrupts();
   const auto gui = flags.gui ? std::make_unique<RunGui>() : nullptr;

@@ -29,7 +29,7 @@ int main(int argc, char** argv) {
   oneac::app::add_simulate(program);
   oneac::app::add_eval(program);
   oneac::app::add_synth(program);
-  oneac::app::take_decimal_numbers(program);
+  oneac::app::check_values(program);
   try {
     program.parse(argc, argv);
     if (std::cout.flush()) return 0;

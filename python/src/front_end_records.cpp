@@ -63,7 +63,7 @@ std::shared_ptr<mrpt::obs::CObservationImage> observation_of(const Pixels& pixel
     if (grey) {
       std::copy_n(from, width, row);
     } else {  // blue first in memory
-      for (int u = 0; u < width; ++u)
+      for (std::ptrdiff_t u = 0; u < width; ++u)
         std::reverse_copy(from + 3 * u, from + 3 * u + 3, row + 3 * u);
     }
   }

@@ -115,6 +115,106 @@ TEST_F(Everyday, AFolderHoldsTheFilesOfOneRun) {
   EXPECT_EQ(read_file(folder / "my notes.txt"), "mine");
 }
 
+TEST_F(Everyday, ARunReplacesNothingThatItReads) {
+  const std::vector<std::string> learning{"--set", "front_end.calibration.refine=focal"};
+  ASSERT_EQ(run(log(), learning).exit_code, 0);
+  const std::string camera = out() + "/camera.ini";
+  const std::string own = read_file(camera);
+  expect_refused(run(log(), {"--calibration", camera}), {"camera.ini", "is read by this run"});
+  EXPECT_EQ(read_file(camera), own);
+  EXPECT_EQ(rows(), kFrames);
+  fs::remove(camera);
+  ASSERT_EQ(run(log()).exit_code, 0);
+  const std::string truth = out() + "/trajectory_camera.tum";
+  expect_refused(run(log(), {"--reference", truth}), {"is read by this run"});
+  EXPECT_TRUE(fs::exists(truth));
+}
+
+TEST_F(Everyday, WhatNoRunHasWrittenStays) {
+  const fs::path folder(out());
+  fs::create_directories(folder);
+  write_text(scratch() / "far.png", "mine");
+  for (const char* name : {"mask.png", "report.html", "loops.csv", "params.yaml"}) {
+    write_text(folder / name, "mine");
+    expect_refused(run(log()), {name, "no run has written it"});
+    EXPECT_EQ(read_file(folder / name), "mine");
+    fs::remove(folder / name);
+  }
+  fs::create_symlink("../far.png", folder / "mask.png");
+  expect_refused(run(log()), {"mask.png", "no run has written it"});
+  EXPECT_EQ(read_file(scratch() / "far.png"), "mine");
+  fs::remove(folder / "mask.png");
+  ASSERT_EQ(run(log()).exit_code, 0);
+  write_text(folder / "loops.csv", "mine");  // the run before has not written this one
+  expect_refused(run(log()), {"loops.csv"});
+  EXPECT_EQ(rows(), kFrames);
+}
+
+TEST_F(Everyday, WhatCannotBeReplacedIsSaidBeforeAnythingIsTouched) {
+  ASSERT_EQ(run(log()).exit_code, 0);
+  const fs::path folder(out());
+  for (const char* name : {"graph.g2o", "trajectory_camera.tum", "mask.png"}) {
+    fs::remove(folder / name);
+    fs::create_directories(folder / name / "in it");
+    expect_refused(run(log()), {name, "is a folder"});
+    EXPECT_TRUE(fs::exists(folder / "summary.json"));
+    EXPECT_EQ(read_file(folder / "tilt.csv").empty(), false);
+    fs::remove_all(folder / name);
+  }
+  for (const char* name : {"files.json", "trajectory.gpx"}) {
+    fs::remove(folder / name);
+    ASSERT_EQ(::mkfifo((folder / name).c_str(), 0600), 0);
+    expect_refused(run(log()), {name, "is a pipe"});
+    fs::remove(folder / name);
+  }
+}
+
+TEST_F(Everyday, AReferenceThatIsNoneCostsNoResults) {
+  ASSERT_EQ(run(log()).exit_code, 0);
+  expect_refused(run(log(), {"--reference", "nix.txt"}), {"nix.txt", "no such file"});
+  EXPECT_EQ(rows(), kFrames) << "it was no run";
+  const fs::path poses = drive() / "poses.txt", kept = scratch() / "kept.txt";
+  fs::rename(poses, kept);
+  write_text(poses, "no poses\n");
+  const ProgramResult result = run(log());
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_NE(result.err.find("not compared"), std::string::npos) << result.err;
+  EXPECT_TRUE(fs::exists(fs::path(out()) / "summary.json"));
+  fs::rename(kept, poses);
+}
+
+TEST_F(Everyday, ACalibrationIsNotWrittenOverWhatOthersHaveMade) {
+  const auto calibrate = [&](const std::string& output) {
+    return oneac_program({"calibrate", log(), "-o", output, "--no-progress"});
+  };
+  const fs::path folder = scratch() / "cal";
+  fs::create_directories(folder / "sub");
+  write_text(folder / "other.rawlog", "mine");
+  expect_refused(calibrate((folder / "other.rawlog").string()),
+                 {"other.rawlog", "has not made it"});
+  expect_refused(calibrate((folder / "sub").string()), {"is a folder"});
+  ASSERT_EQ(::mkfifo((folder / "d_height.yaml").c_str(), 0600), 0);
+  expect_refused(calibrate((folder / "d.ini").string()), {"d_height.yaml", "is a pipe"});
+  write_text(folder / "report.html", "mine");
+  expect_refused(calibrate((folder / "camera.ini").string()), {"report.html"});
+  EXPECT_EQ(read_file(folder / "report.html"), "mine");
+}
+
+TEST_F(Everyday, ARefusedImportLeavesNothing) {
+  const fs::path folder = scratch() / "kitti";
+  fs::create_directories(folder / "image_0");
+  const std::vector<std::string> none{"import", "kitti", folder.string(), "--camera-height", "1.5"};
+  const auto import_to = [&](const std::string& log) {
+    std::vector<std::string> arguments = none;
+    arguments.insert(arguments.end(), {"-o", log});
+    return oneac_program(arguments);
+  };
+  expect_refused(import_to(""), {"--output", "empty"});
+  expect_refused(import_to((scratch() / "x/").string()), {"--output", "is a folder"});
+  EXPECT_FALSE(fs::exists(scratch() / "x"));
+  expect_refused(oneac_program({"import", "kity"}), {"'kity'", "did you mean 'kitti'"});
+}
+
 TEST_F(Everyday, ARunThatFailsBeforeItsFirstFrameLeavesNoOtherDrivesResults) {
   ASSERT_EQ(run(log()).exit_code, 0);
   expect_refused(run(scratch() / "mistyped.rawlog"), {"mistyped.rawlog", "no such file"});
@@ -293,7 +393,12 @@ TEST_F(Everyday, MessagesNameTheKeyOrFlagThatWasTyped) {
 TEST_F(Everyday, AFlagThatIsAlsoAKeyIsNamedAsItWasTyped) {
   expect_refused(run(log(), {"--threads", "abc"}), {"--threads: ", "'abc'"});
   expect_refused(run(log(), {"--camera-height", "1,65"}), {"--camera-height: ", "'1,65'"});
-  expect_refused(run(log(), {"--camera-height", "5.0000001"}), {"5.0000001, must be"});
+  expect_refused(run(log(), {"--camera-height", "5.0000001"}),
+                 {"--camera-height 5.0000001", "must be 0, or"});
+  expect_refused(run(log(), {"--mount-roll", "abc"}), {"--mount-roll abc", "a number of degrees"});
+  expect_refused(run(log(), {"--mount-roll", "400"}), {"--mount-roll 400", "from -360 to 360"});
+  expect_refused(run(log(), {"--mount-roll", ""}), {"--mount-roll", "is empty"});
+  expect_refused(oneac_program({"simulate", "-o", out(), "--seed", "-1"}), {"--seed", "from 0 to"});
   expect_refused(run(log(), {"--set", "run.threads=abc"}), {"--set run.threads: ", "'abc'"});
 }
 
@@ -309,7 +414,7 @@ TEST_F(Everyday, NumbersOfFlagsAreDecimal) {
     EXPECT_EQ(std::distance(begin(images), end(images)), 8) << eight;
     fs::remove_all(folder);
   }
-  for (const char* none : {"0x8", "8.5", "", "+-8", "1e1"}) {
+  for (const char* none : {"0x8", "8.5", "", "+-8", "1e1", "99999999999"}) {
     expect_refused(simulate(none), {"--frames", "whole number"});
   }
   for (const char* none : {"0x2", "", "nan", "1,5"}) {

@@ -2,6 +2,7 @@
 
 #include "run/run_outputs.h"
 
+#include "oneac/base/input_file.h"
 #include "oneac/base/median.h"
 #include "oneac/base/number_text.h"
 #include "oneac/base/version.h"
@@ -248,11 +249,17 @@ std::string height_yaml(const Calibration& c, const std::string& log) {
 }
 
 bool is_made_by_calibrate(const std::filesystem::path& file) {
-  std::error_code ignored;
-  if (!std::filesystem::exists(file, ignored)) return true;
-  std::ifstream in(file);
-  std::string first;
-  return std::getline(in, first) && first.rfind(kMadeBy, 0) == 0;
+  constexpr std::size_t kBeginning = 400;  // [byte]
+  const std::string fault = fault_of_file(file);
+  if (fault == "no such file") return true;
+  if (!fault.empty()) return false;
+  std::ifstream in(file, std::ios::binary);
+  std::string beginning(kBeginning, ' ');
+  in.read(beginning.data(), static_cast<std::streamsize>(kBeginning));
+  const std::string first = beginning.substr(0, beginning.find('\n'));
+  // A YAML or an INI file, or the report.
+  return first.find("made by oneac calibrate") != std::string::npos ||
+         beginning.find("<title>oneac calibrate</title>") != std::string::npos;
 }
 
 std::string camera_ini(const Calibration& c, const std::string& log) {

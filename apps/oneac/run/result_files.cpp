@@ -2,6 +2,7 @@
 
 #include "oneac/base/atomic_file.h"
 #include "oneac/base/error.h"
+#include "oneac/base/input_file.h"
 #include "oneac/base/version.h"
 
 #include <nlohmann/json.hpp>
@@ -11,7 +12,10 @@
 #include <charconv>
 #include <cstddef>
 #include <fstream>
+#include <functional>
 #include <iterator>
+#include <optional>
+#include <set>
 #include <string_view>
 #include <system_error>
 #include <vector>
@@ -88,6 +92,7 @@ constexpr const char* kCameraFile = "camera.ini";
 constexpr const char* kOfARun = "// used by oneac run";
 
 bool is_camera_of_a_run(const std::filesystem::path& file) {
+  if (!fault_of_file(file).empty()) return false;
   std::ifstream in(file);
   std::string line;
   return std::getline(in, line) && line.rfind(kOfARun, 0) == 0;
@@ -101,25 +106,84 @@ constexpr Signature kSignatures[] = {{"trajectory.gpx", "creator=\"oneac"},
                                      {"trajectory.kml", "<name>oneac</name>"},
                                      {"files.json", "\"by\": \"oneac"}};
 
-bool begins_with_signature(const Signature& signature, const std::filesystem::path& file) {
-  constexpr std::streamsize kBeginning = 400;  // [byte]
+std::string beginning_of(const std::filesystem::path& file) {
+  constexpr std::size_t kBeginning = 400;  // [byte]
+  if (!fault_of_file(file).empty()) return "";
   std::ifstream in(file, std::ios::binary);
   std::string beginning(kBeginning, ' ');
-  in.read(beginning.data(), kBeginning);
-  return beginning.find(signature.text) != std::string::npos;
+  in.read(beginning.data(), static_cast<std::streamsize>(kBeginning));
+  return beginning;
+}
+
+bool has_signature(const Signature& signature, const std::filesystem::path& file) {
+  return beginning_of(file).find(signature.text) != std::string::npos;
 }
 
 /// Not what a run has written.
 bool belongs_to_others(std::string_view name, const std::filesystem::path& file) {
   for (const Signature& signature : kSignatures) {
-    if (name == signature.name) return !begins_with_signature(signature, file);
+    if (name == signature.name) return !has_signature(signature, file);
   }
   return name == kCameraFile && !is_camera_of_a_run(file);
 }
 
-[[noreturn]] void refuse_to_overwrite(const std::filesystem::path& file) {
+/// What an earlier run has left in a folder.
+class EarlierRun {
+ public:
+  explicit EarlierRun(const std::filesystem::path& folder) : folder_(folder) {
+    // The first files of every run that others do not write; the list is its last.
+    left_some_ =
+        beginning_of(folder / "relative_poses.csv").rfind("index1,index2,t1,t2,", 0) == 0 ||
+        beginning_of(folder / "summary.json").rfind("{\n  \"version\": \"", 0) == 0;
+    if (belongs_to_others("files.json", folder / "files.json")) return;
+    std::ifstream in(folder / "files.json");
+    const auto list = nlohmann::json::parse(in, nullptr, false);
+    if (!list.is_object() || !list.contains("files") || !list["files"].is_array()) return;
+    listed_.emplace();
+    for (const auto& file : list["files"]) {
+      if (file.is_object() && file.contains("name") && file["name"].is_string()) {
+        listed_->insert(file["name"].get<std::string>());
+      }
+    }
+  }
+
+  /// Where a run did not come to its list, all that has the name of a result is taken for its own.
+  [[nodiscard]] bool wrote(std::string_view name) const {
+    if (belongs_to_others(name, folder_ / name)) return false;
+    return listed_ ? listed_->count(name) > 0 : left_some_;
+  }
+
+ private:
+  std::filesystem::path folder_;
+  bool left_some_ = false;
+  std::optional<std::set<std::string, std::less<>>> listed_;
+};
+
+bool is_input(const std::filesystem::path& file, const std::vector<std::string>& inputs) {
+  return std::any_of(inputs.begin(), inputs.end(), [&](const std::string& input) {
+    std::error_code missing;
+    return !input.empty() && std::filesystem::equivalent(file, input, missing) && !missing;
+  });
+}
+
+void require_own_result(const std::filesystem::path& file, const EarlierRun& earlier,
+                        const std::vector<std::string>& inputs) {
+  const std::string another = "name another folder with -o";
+  std::error_code error;
+  const auto status = std::filesystem::symlink_status(file, error);
+  if (status.type() == std::filesystem::file_type::not_found) return;
+  const std::string fault = fault_of_file(file);
+  if (fault == "no such file") return;  // a link to what will be written
+  if (!fault.empty()) {
+    throw InputError(file.string(), fault + " and has the name of a result",
+                     "take it away, or " + another);
+  }
+  if (is_input(file, inputs)) {
+    throw InputError(file.string(), "is read by this run, whose results would replace it", another);
+  }
+  if (earlier.wrote(file.filename().string())) return;
   throw InputError(file.string(), "no run has written it, and this one would overwrite it",
-                   "name another folder with -o");
+                   another);
 }
 
 std::size_t lines_of(const std::filesystem::path& file) {
@@ -214,35 +278,40 @@ std::vector<std::filesystem::path> folders_of_logs(const std::filesystem::path& 
 }
 
 void clear_folder(const std::filesystem::path& folder) {
+  const EarlierRun earlier(folder);
+  std::vector<std::filesystem::path> own;
   for (const ResultFile& result : kFiles) {
-    const std::filesystem::path file = replaced_file(folder / result.name);
-    std::error_code ignored;
-    if (belongs_to_others(result.name, file)) continue;
-    if (std::filesystem::is_regular_file(file, ignored)) std::filesystem::remove(file, ignored);
+    if (earlier.wrote(result.name)) own.push_back(replaced_file(folder / result.name));
+  }
+  std::error_code ignored;
+  for (const std::filesystem::path& file : own) {
+    if (fault_of_file(file).empty()) std::filesystem::remove(file, ignored);
+  }
+}
+
+void require_own_results_in(const std::filesystem::path& folder, const ResultFolder& results) {
+  const EarlierRun earlier(folder);
+  for (const ResultFile& result : kFiles) {
+    // Without learning it is neither written nor, where it is another's, taken away.
+    const std::filesystem::path file = folder / result.name;
+    const bool left_alone = std::string_view(result.name) == kCameraFile &&
+                            !results.learns_camera && !earlier.wrote(result.name);
+    if (!left_alone) require_own_result(file, earlier, results.inputs);
   }
 }
 
 }  // namespace
 
+void require_own_results(const ResultFolder& results) {
+  for (const std::filesystem::path& log : folders_of_logs(results.folder)) {
+    require_own_results_in(log, results);
+  }
+  require_own_results_in(results.folder, results);
+}
+
 void clear_of_earlier_run(const std::filesystem::path& folder) {
   for (const std::filesystem::path& log : folders_of_logs(folder)) clear_folder(log);
   clear_folder(folder);
-}
-
-void require_no_other_camera(const std::filesystem::path& folder) {
-  const std::filesystem::path file = folder / kCameraFile;
-  std::error_code ignored;
-  if (!std::filesystem::exists(file, ignored) || is_camera_of_a_run(file)) return;
-  refuse_to_overwrite(file);
-}
-
-void require_no_other_results(const std::filesystem::path& folder) {
-  for (const Signature& signature : kSignatures) {
-    const std::filesystem::path file = folder / signature.name;
-    std::error_code ignored;
-    if (!std::filesystem::exists(file, ignored)) continue;
-    if (belongs_to_others(signature.name, file)) refuse_to_overwrite(file);
-  }
 }
 
 std::string names_of_results(const std::filesystem::path& folder) {

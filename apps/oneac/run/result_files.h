@@ -2,20 +2,26 @@
 
 #include <filesystem>
 #include <string>
+#include <vector>
 
 namespace oneac::app {
 
-/// Takes the files of an earlier run out of the folder: it holds those of one run only. What no run
-/// writes stays; the folders 1, 2, … of a run of several logs are cleared, too. @throws OutputError
-/// naming what has the name of a result and is no file
+/// What a run is about to write, and what it reads.
+struct ResultFolder {
+  std::filesystem::path folder;
+  bool learns_camera = false;       ///< camera.ini is written, too
+  std::vector<std::string> inputs;  ///< files that the run reads; empty names are none
+};
+
+/// Before anything is taken away or computed: results replace those of an earlier run, not what
+/// others have put there under their names, nor what this run reads. Opens no pipe.
+/// @throws InputError naming what has the name of a result and is a folder, a device or a pipe, no
+///         run has written, or is an input
+void require_own_results(const ResultFolder& results);
+
+/// Takes the files of an earlier run out of the folder, which is checked: it holds those of one run
+/// only. What no run writes stays; the folders 1, 2, … of a run of several logs are cleared, too.
 void clear_of_earlier_run(const std::filesystem::path& folder);
-
-/// Before a drive that writes camera.ini: one that no run has written, such as that of oneac
-/// calibrate, is nobody's to overwrite. @throws InputError naming it
-void require_no_other_camera(const std::filesystem::path& folder);
-
-/// The same of trajectory.gpx, trajectory.kml and files.json, names that people use themselves.
-void require_no_other_results(const std::filesystem::path& folder);
 
 /// The results of a run that are in the folder, "trajectory_camera.kitti, trajectory_camera.tum,
 /// …".

@@ -96,10 +96,9 @@ std::vector<RunOptions> options_of_logs(const std::vector<std::string>& logs,
 void prepare_folders(const std::vector<RunOptions>& logs, const RunOptions& options) {
   for (const RunOptions& log : logs) {
     require_writable_folder(log.output);
-    if (learns_camera(log)) require_no_other_camera(log.output);
-    require_no_other_results(log.output);
+    require_own_results({log.output, learns_camera(log), inputs_of(log)});
   }
-  require_no_other_results(options.output);
+  require_own_results({options.output, false, inputs_of(options)});
   for (const RunOptions& log : logs) clear_of_earlier_run(log.output);
   clear_of_earlier_run(options.output);
 }

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <stdexcept>
+#include <string_view>
 
 namespace oneac::app {
 
@@ -55,14 +56,23 @@ namespace {
 double angle_of(const char* key, const std::string& text) {
   if (text.empty()) return 0.0;
   if (const auto angle = finite_number(text)) return *angle;
-  throw InputError("parameters", std::string("source.") + key + " = '" + text + "' is no number",
-                   "give degrees");
+  throw std::invalid_argument(std::string(key) + " = '" + text + "', must be a number of degrees");
 }
 
-/// "window.fixed = 9, …" as whoever typed it calls it: front_end.window.fixed.
-std::string with_full_key(const std::string& fault, const ParameterTable& table) {
+/// "window.fixed = 9, …" as whoever typed it calls it: front_end.window.fixed, or a flag.
+[[noreturn]] void fail_by_bound(const std::string& fault, const ParameterTable& table,
+                                const std::vector<Setting>& settings) {
+  constexpr std::string_view kIs = " = ";
   const auto end = std::min(fault.find(' '), fault.size());
-  return table.full_key(fault.substr(0, end)) + fault.substr(end);
+  const std::string key = table.full_key(fault.substr(0, end));
+  const auto typed = std::find_if(settings.rbegin(), settings.rend(),
+                                  [&](const Setting& setting) { return setting.key == key; });
+  const bool by_flag = typed != settings.rend() && typed->typed.rfind("--set", 0) != 0;
+  if (by_flag && fault.compare(end, kIs.size(), kIs) == 0) {
+    throw InputError(typed->typed + " " + typed->value, fault.substr(end + kIs.size()),
+                     "correct the flag");
+  }
+  throw InputError("parameters", key + fault.substr(end), "correct it in --params or --set");
 }
 
 /// RunParameters without what cannot change a result.
@@ -85,12 +95,7 @@ std::optional<MountAngles> SourceParameters::mount() const {
   const MountAngles mount{angle_of("mount_roll_deg", mount_roll_deg),
                           angle_of("mount_pitch_deg", mount_pitch_deg),
                           angle_of("mount_yaw_deg", mount_yaw_deg)};
-  try {
-    mount.validate();
-  } catch (const std::invalid_argument& error) {
-    throw InputError("parameters", std::string("source.") + error.what(),
-                     "correct --mount-roll, --mount-pitch or --mount-yaw");
-  }
+  mount.validate();
   return mount;
 }
 
@@ -132,8 +137,8 @@ std::string RunOptions::result_parameters() {
 }
 
 void RunOptions::validate() {
-  source.for_log(log).validate();
   try {
+    source.for_log(log).validate();
     table().check_bounds();
     front_end.validate();
     loops.validate();
@@ -143,16 +148,23 @@ void RunOptions::validate() {
                                   ", must be at least 1");
     }
   } catch (const std::invalid_argument& error) {
-    throw InputError("parameters", with_full_key(error.what(), table()),
-                     "correct it in --params or --set");
+    fail_by_bound(error.what(), table(), settings);
   }
   if (run.global_ba && !run.loops) {
     throw InputError("--global-ba", "adjusts a drive that loops have closed", "add --loops");
   }
 }
 
+std::vector<std::string> inputs_of(const RunOptions& options) {
+  const std::string& calibration = options.source.calibration;
+  return {options.log, options.run.reference, calibration,
+          calibration.substr(0, calibration.rfind(':')),  // FILE:SECTION
+          options.front_end.features.mask.image};
+}
+
 void apply_settings(const std::vector<std::string>& files, const std::vector<Setting>& settings,
                     RunOptions& options) {
+  options.settings = settings;
   ParameterTable table = options.table();
   for (const std::string& file : files) apply_yaml_file(file, table);
   for (const Setting& setting : settings) {

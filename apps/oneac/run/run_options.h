@@ -28,10 +28,10 @@ struct SourceParameters {
   std::size_t count = 0;
   std::size_t every = 1;
 
-  /// @throws InputError naming a key whose text is no angle, or out of bounds
+  /// @throws std::invalid_argument naming a key whose text is no angle, or out of bounds
   [[nodiscard]] SourceOptions for_log(const std::string& log) const;
   /// The orientation of the camera, where one of its angles is given: the others are zero then.
-  /// @throws InputError as for_log()
+  /// @throws std::invalid_argument as for_log()
   [[nodiscard]] std::optional<MountAngles> mount() const;
 };
 
@@ -56,6 +56,7 @@ struct RunOptions {
   LoopOptions loops;
   GlobalOptions global_ba;
   RunParameters run;
+  std::vector<Setting> settings;              ///< what was applied last, for messages
   std::optional<PinholeCamera> camera_model;  ///< instead of source.calibration; no parameter
 
   /// All keys; borrows this object.
@@ -65,6 +66,9 @@ struct RunOptions {
   /// @throws InputError naming key, value and bound
   void validate();
 };
+
+/// Files that a run with these options reads; some names may be empty.
+[[nodiscard]] std::vector<std::string> inputs_of(const RunOptions& options);
 
 /// Applies parameter files, then settings. @throws InputError naming the file or flag
 void apply_settings(const std::vector<std::string>& files, const std::vector<Setting>& settings,

@@ -29,6 +29,10 @@ void write_results(const DriveRecord& record, const ClosedDrive* closed, RunOpti
   if (!camera.empty()) write_file_atomically(folder / "camera.ini", camera);
   write_file_atomically(folder / "params.yaml", options.result_parameters());
   const RunEvaluation evaluation = evaluate_record(record, options, closed);
+  if (!evaluation.reference_fault.empty()) {
+    std::cerr << "oneac: not compared with what lies beside the log: "
+              << printable(evaluation.reference_fault) << '\n';
+  }
   const GeoreferenceResult& joined = evaluation.georeference;
   write_georeferenced(record, joined, options.run.georeference, folder);
   if (options.run.georeference && !joined.found && !options.run.quiet) {

@@ -3,6 +3,7 @@
 #include "gps_lag.h"
 #include "run_georeference.h"
 
+#include "oneac/base/error.h"
 #include "oneac/base/number_text.h"
 #include "oneac/base/printable.h"
 #include "oneac/base/version.h"
@@ -24,8 +25,20 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-std::string find_reference(const RunOptions& options) {
-  return options.run.reference.empty() ? poses_beside(options.log) : options.run.reference;
+/// What was asked for, else what lies beside the log: if that cannot be read, nobody asked for it.
+std::optional<Trajectory> reference_of(const RunOptions& options, RunEvaluation& evaluation) {
+  const std::string& asked = options.run.reference;
+  const std::string file = asked.empty() ? poses_beside(options.log) : asked;
+  if (file.empty()) return std::nullopt;
+  try {
+    Trajectory reference = read_trajectory(file);
+    evaluation.reference_file = file;
+    return reference;
+  } catch (const InputError& error) {
+    if (!asked.empty()) throw;
+    evaluation.reference_fault = error.what();
+    return std::nullopt;
+  }
 }
 
 /// Frames [first, last] whose times the GPS covers, so that nothing is extrapolated.
@@ -274,9 +287,9 @@ nlohmann::ordered_json global_json(const GlobalReport& global) {
 RunEvaluation evaluate_record(const DriveRecord& record, const RunOptions& options,
                               const ClosedDrive* closed) {
   RunEvaluation evaluation;
-  evaluation.reference_file = find_reference(options);
-  if (!evaluation.reference_file.empty() && record.frames.size() > 1) {
-    const Trajectory reference = read_trajectory(evaluation.reference_file);
+  const auto found = reference_of(options, evaluation);
+  if (found && record.frames.size() > 1) {
+    const Trajectory& reference = *found;
     const auto against = [&](const Trajectory& camera) {
       return evaluate_run(record.relative_poses(), camera, reference,
                           metric_word(record) == "none" ? Alignment::kSim3 : Alignment::kSe3);

@@ -24,7 +24,8 @@ struct GpsComparison {
 
 /// A run compared with what is known about the drive.
 struct RunEvaluation {
-  std::string reference_file;  ///< "" when there is none
+  std::string reference_file;   ///< "" when there is none
+  std::string reference_fault;  ///< what keeps one that lies beside the log from being read
   std::optional<Evaluation> against_poses;
   std::optional<Evaluation> closed_against_poses;  ///< the same with the loops closed
   std::optional<Evaluation> graph_against_poses;  ///< before the global adjustment, if there is one

@@ -4,9 +4,12 @@
 #include "oneac/base/finite_number.h"
 #include "oneac/base/printable.h"
 
-#include <algorithm>
+#include <charconv>
 #include <cstddef>
+#include <cstdint>
+#include <limits>
 #include <string_view>
+#include <system_error>
 
 namespace oneac::app {
 namespace {
@@ -27,15 +30,24 @@ CLI::Validator number_that(const Bound& holds, const std::string& bound, const c
           name};
 }
 
-/// CLI11 gets "8" for "+8" and "08", which it would read in base 8.
+/// CLI11 gets "8" for "+8" and "08", which it would read in base 8, and nothing that it would cut.
+template <class Number>
 std::string take_whole(std::string& text) {
-  const std::size_t first = text.find_first_not_of("+-");
-  const bool whole = first != std::string::npos && first <= 1 &&
-                     text.find_first_not_of("0123456789", first) == std::string::npos;
-  if (!whole) return in_quotes(text) + " must be a whole number";
-  const std::size_t digit = std::min(text.find_first_not_of('0', first), text.size() - 1);
-  text = (text[0] == '-' ? "-" : "") + text.substr(digit);
+  const bool plus = text.size() > 1 && text[0] == '+' && text[1] != '-';
+  Number value = 0;
+  const char* end = text.data() + text.size();
+  const auto result = std::from_chars(text.data() + (plus ? 1 : 0), end, value);
+  if (result.ec != std::errc() || result.ptr != end) {
+    return in_quotes(text) + " must be a whole number from " +
+           std::to_string(std::numeric_limits<Number>::min()) + " to " +
+           std::to_string(std::numeric_limits<Number>::max());
+  }
+  text = std::to_string(value);
   return "";
+}
+
+std::string take_text(std::string& text) {
+  return text.empty() ? "is empty; leave it out, or give a value" : "";
 }
 
 std::string take_decimal(std::string& text) {
@@ -66,14 +78,17 @@ CLI::Validator at_least_zero() {
   return number_that([](double value) { return value >= 0.0; }, "of at least 0", "AT LEAST 0");
 }
 
-void take_decimal_numbers(CLI::App& program) {
+void check_values(CLI::App& program) {
   for (CLI::App* verb : program.get_subcommands({})) {
     for (CLI::Option* option : verb->get_options()) {
       if (is_of_type(*option, "FLOAT")) option->transform(CLI::Validator(take_decimal, ""));
-      if (is_of_type(*option, "INT")) option->transform(CLI::Validator(take_whole, ""));
-      if (is_of_type(*option, "UINT")) option->transform(CLI::Validator(take_whole, ""));
+      if (is_of_type(*option, "INT")) option->transform(CLI::Validator(take_whole<int>, ""));
+      if (is_of_type(*option, "UINT")) {
+        option->transform(CLI::Validator(take_whole<std::uint64_t>, ""));
+      }
+      if (is_of_type(*option, "TEXT")) option->transform(CLI::Validator(take_text, ""));
     }
-    take_decimal_numbers(*verb);
+    check_values(*verb);
   }
 }
 

@@ -25,8 +25,8 @@ void add_selection(CLI::App& verb, std::vector<Setting>& settings);
 [[nodiscard]] CLI::Validator above_zero();
 [[nodiscard]] CLI::Validator at_least_zero();
 
-/// Lets the options of all verbs that are numbers take decimal ones only. CLI11 reads "0x2" as 2,
-/// "010" as 8 and "" as 0.
-void take_decimal_numbers(CLI::App& program);
+/// Lets the options of all verbs that are numbers take decimal ones only, and those that are texts
+/// none without a letter. CLI11 reads "0x2" as 2, "010" as 8, "" as 0 and "-1" as 2⁶⁴ − 1.
+void check_values(CLI::App& program);
 
 }  // namespace oneac::app

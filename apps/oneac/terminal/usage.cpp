@@ -22,12 +22,16 @@ std::vector<std::string> verbs_of(const CLI::App& program) {
 /// Which verb is meant, where the first argument is none; "" when it is one, or a flag.
 std::string about_verb(const CLI::App& program, const std::vector<std::string>& arguments) {
   const std::vector<std::string> verbs = verbs_of(program);
+  if (verbs.empty()) return "";
   std::string all;
   for (const std::string& verb : verbs) all += (all.empty() ? "" : ", ") + verb;
   if (arguments.empty()) return "no verb given; choose from: " + all;
   const std::string& word = arguments.front();
   const bool known = std::find(verbs.begin(), verbs.end(), word) != verbs.end();
-  if (known || (!word.empty() && word.front() == '-')) return "";
+  if (known) {  // it may have verbs of its own
+    return about_verb(*program.get_subcommand(word), {arguments.begin() + 1, arguments.end()});
+  }
+  if (!word.empty() && word.front() == '-') return "";
   return "'" + shortened(word, kLongestWord) + "' is no verb, did you mean '" +
          nearest_name(shortened(word, kLongestWord), verbs) + "'? There are: " + all;
 }

@@ -7,6 +7,7 @@
 #include "oneac/base/error.h"
 #include "oneac/base/number_text.h"
 #include "oneac/geometry/camera_height.h"
+#include "oneac/geometry/camera_plausibility.h"
 #include "oneac/rawlog/calibration.h"
 #include "oneac/rawlog/rawlog_writer.h"
 
@@ -89,6 +90,10 @@ PinholeCamera calibration_for(const std::string& file_and_section, const fs::pat
 
 PinholeCamera fitted_to(const fs::path& image, PinholeCamera camera, const std::string& where,
                         ImportReport& report) {
+  const std::string impossible = impossible_camera(camera);
+  if (!impossible.empty()) {
+    throw InputError(where, impossible, "give the calibration of these images");
+  }
   const auto [width, height] = image_size(image);
   if (camera.width == 0 || camera.height == 0) {
     camera.width = width;

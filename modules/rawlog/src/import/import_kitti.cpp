@@ -155,10 +155,13 @@ std::string poses_of(const fs::path& source, const Sequence& sequence, ImportRep
   return text;
 }
 
-void write_poses(const std::string& poses, ImportReport& report) {
-  if (poses.empty()) return;
-  report.poses = report.log.parent_path() / (report.log.stem().string() + "_poses.txt");
-  write_file_atomically(report.poses, poses);
+/// Where they are written, which can be a file. @throws InputError
+fs::path place_of_poses(const fs::path& log) {
+  fs::path file = log.parent_path() / (log.stem().string() + "_poses.txt");
+  const std::string fault = fault_of_file(file);
+  if (fault.empty() || fault == "no such file") return file;
+  throw InputError(file.string(), fault + ", where the poses are to be written",
+                   "take it away, or give another name with -o");
 }
 
 /// Whether the folder is KITTI's own, whose cameras are 1.65 m above the road.
@@ -208,8 +211,11 @@ ImportReport import_kitti(const KittiImport& options) {
   drive.right = find_right(options, sequence, report);
   require_writable_folder(options.log.has_parent_path() ? options.log.parent_path() : ".");
   const std::string poses = poses_of(options.source, sequence, report);
+  const fs::path place = place_of_poses(options.log);
   write_drive(drive, options.log, options.copy_images, report);  // not where poses are none
-  write_poses(poses, report);
+  if (poses.empty()) return report;
+  write_file_atomically(place, poses);
+  report.poses = place;
   return report;
 }
 

@@ -40,6 +40,18 @@ class FrameWriter {
   /// What of the video is missing or damaged goes to the notes.
   /// @throws InputError when the video has no such part
   void run(ImageDrive& drive, ImportReport& report) {
+    try {
+      decode(drive, report);
+    } catch (...) {  // no log will refer to them
+      std::error_code ignored;
+      for (const fs::path& image : drive.images) fs::remove(image, ignored);
+      fs::remove(folder_, ignored);  // if it is empty
+      throw;
+    }
+  }
+
+ private:
+  void decode(ImageDrive& drive, ImportReport& report) {
     VideoFile video(options_.source);
     std::size_t frame = 0;
     bool to_its_end = true;
@@ -62,12 +74,14 @@ class FrameWriter {
                              "smeared or left out; copy it again");
     }
     if (drive.images.size() >= 2) return;
+    const bool part = options_.from_s > 0.0 || options_.to_s;
     throw InputError(options_.source.string(),
-                     std::to_string(drive.images.size()) + " frames between --from and --to",
-                     "give a part of the video with two frames at least");
+                     std::to_string(drive.images.size()) + " frames" +
+                         (part ? " between --from and --to" : " can be decoded"),
+                     part ? "give a part of the video with two frames at least"
+                          : "copy the video again: it is cut off or damaged");
   }
 
- private:
   [[noreturn]] void fail(std::size_t frame, const std::string& fault,
                          const std::string& cure) const {
     throw InputError(options_.source.string() + ": frame " + std::to_string(frame), fault, cure);

@@ -9,8 +9,7 @@ namespace oneac {
 /// distorted() for any scalar, as the derivatives of an optimiser are.
 /// @param k  eight coefficients, as PinholeCamera has them
 template <typename Scalar>
-void distort(LensModel lens, const Scalar* k, const Scalar& x, const Scalar& y,
-             Scalar* distorted) {
+void distort(LensModel lens, const Scalar* k, const Scalar& x, const Scalar& y, Scalar* distorted) {
   using std::atan;
   using std::sqrt;
   const Scalar r2 = x * x + y * y;
@@ -26,8 +25,8 @@ void distort(LensModel lens, const Scalar* k, const Scalar& x, const Scalar& y,
     return;
   }
   const Scalar xy = x * y;
-  const Scalar radial = (1.0 + r2 * (k[0] + r2 * (k[1] + r2 * k[4]))) /
-                        (1.0 + r2 * (k[5] + r2 * (k[6] + r2 * k[7])));
+  const Scalar radial =
+      (1.0 + r2 * (k[0] + r2 * (k[1] + r2 * k[4]))) / (1.0 + r2 * (k[5] + r2 * (k[6] + r2 * k[7])));
   distorted[0] = x * radial + 2.0 * k[2] * xy + k[3] * (r2 + 2.0 * x * x);
   distorted[1] = y * radial + k[2] * (r2 + 2.0 * y * y) + 2.0 * k[3] * xy;
 }
