@@ -21,6 +21,7 @@
 #include <CLI/CLI.hpp>
 
 #include <chrono>
+#include <cstddef>
 #include <filesystem>
 #include <iostream>
 #include <memory>
@@ -52,8 +53,9 @@ void require_log(const std::string& log) {
 }
 
 /// The same of what is read beside the log.
-void require_inputs(const RunOptions& options) {
-  if (!options.run.reference.empty()) static_cast<void>(read_trajectory(options.run.reference));
+void require_inputs(const RunOptions& options, std::size_t logs) {
+  const std::string& reference = options.run.reference;
+  if (!reference.empty() && logs == 1) static_cast<void>(read_trajectory(reference));
   const SourceParameters& source = options.source;
   if (!source.calibration.empty()) {
     static_cast<void>(load_calibration(source.calibration, source.camera));
@@ -72,7 +74,7 @@ void settle(RunFlags& flags) {
   if (options.output.empty()) throw InputError("run", "no output folder given", "add -o DIR");
   require_writable_folder(options.output);
   for (const std::string& log : flags.logs) require_log(log);
-  require_inputs(options);
+  require_inputs(options, flags.logs.size());
 }
 
 void run_one(RunFlags& flags) {

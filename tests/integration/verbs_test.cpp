@@ -81,6 +81,14 @@ TEST_F(Verbs, EvalOfTheTruthAgainstItselfIsZero) {
   EXPECT_FALSE(nlohmann::json::parse(result.out).empty());
 }
 
+TEST_F(Verbs, EvalSaysWhereAnOffsetCountsForNothing) {
+  const std::string truth = (drive() / "poses.txt").string();
+  const ProgramResult result = oneac_program({"eval", truth, truth, "--offset", "5"});
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_NE(result.err.find("offset counts for nothing"), std::string::npos) << result.err;
+  EXPECT_EQ(result.err.find('\n'), result.err.size() - 1) << result.err;
+}
+
 TEST_F(Verbs, ImportKittiMakesALogThatRunsAndThatMrptReads) {
   const fs::path source = scratch() / "kitti";
   fs::create_directories(source / "image_0");

@@ -131,8 +131,9 @@ bool belongs_to_others(std::string_view name, const std::filesystem::path& file)
 class EarlierRun {
  public:
   explicit EarlierRun(const std::filesystem::path& folder) : folder_(folder) {
-    // The first files of every run that others do not write; the list is its last.
+    // The first file of every run, and those that others do not write; the list is its last.
     left_some_ =
+        fault_of_file(folder / "trajectory_camera.kitti").empty() ||
         beginning_of(folder / "relative_poses.csv").rfind("index1,index2,t1,t2,", 0) == 0 ||
         beginning_of(folder / "summary.json").rfind("{\n  \"version\": \"", 0) == 0;
     if (belongs_to_others("files.json", folder / "files.json")) return;

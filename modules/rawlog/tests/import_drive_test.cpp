@@ -426,6 +426,7 @@ TEST_F(ImportKittiRaw, ReadsPairsTimesAndOxts) {
   const auto gps = stored<CObservationGPS>();
   EXPECT_EQ(gps.size(), 2U);  // position, then speed and course
   EXPECT_TRUE(notes(report, "1 right images of 2, 0.540 m beside"));
+  EXPECT_TRUE(notes(report, "1 of 2 packets of oxts are not there"));
 }
 
 TEST_F(ImportKittiRaw, TakesTheRawCameraForImagesOfItsSize) {

@@ -369,6 +369,27 @@ TEST_F(ImportKitti, RefusesASkewAndWhatNoCameraHas) {
   EXPECT_NE(complaint().find("1e+300"), std::string::npos) << complaint();
 }
 
+TEST_F(ImportKitti, RefusesAnImageThatIsALinkToNothing) {
+  make_sequence();
+  fs::create_symlink("nowhere.png", options_.source / "image_0" / "000003.png");
+  EXPECT_NE(complaint().find("000003.png: is a link to nothing"), std::string::npos);
+}
+
+TEST_F(ImportKitti, APlaceOfPosesThatIsNoFileCostsNoLog) {
+  make_sequence();
+  fs::create_directories(folder_.path() / "out" / "k03_poses.txt");
+  EXPECT_NE(complaint().find("k03_poses.txt"), std::string::npos) << complaint();
+  EXPECT_FALSE(fs::exists(options_.log));
+}
+
+TEST_F(ImportKitti, RefusesAGivenCalibrationThatNoCameraHas) {
+  make_sequence();
+  options_.calibration = (folder_.path() / "given.txt").string();
+  write_text(options_.calibration, "P0: 1e300 0 610 0 0 720 170 0 0 0 1 0\n");
+  EXPECT_NE(complaint().find("1e+300"), std::string::npos) << complaint();
+  EXPECT_FALSE(fs::exists(options_.log));
+}
+
 TEST_F(ImportKitti, WritesThroughALinkAndReplacesNothingButFiles) {
   make_sequence();
   fs::create_directories(folder_.path() / "out");

@@ -114,7 +114,11 @@ std::vector<fs::path> list_images(const fs::path& folder) {
   std::vector<fs::path> images;
   std::error_code error;
   for (const auto& entry : fs::directory_iterator(folder, error)) {
-    if (entry.is_regular_file(error) && is_image(entry.path())) images.push_back(entry.path());
+    if (!is_image(entry.path())) continue;
+    if (entry.is_symlink(error) && !fs::exists(entry.path(), error)) {
+      throw InputError(entry.path().string(), "is a link to nothing", "mend it, or take it away");
+    }
+    if (entry.is_regular_file(error)) images.push_back(entry.path());
   }
   require_different_names(images);
   std::sort(images.begin(), images.end(), [](const fs::path& a, const fs::path& b) {

@@ -117,11 +117,15 @@ void add_oxts(const fs::path& folder, ImageDrive& drive, ImportReport& report) {
     return;
   }
   const std::vector<double> times = read_date_stamps(folder / "timestamps.txt");
+  std::size_t missing = 0;
   for (std::size_t i = 0; i < times.size(); ++i) {
     std::string name = std::to_string(i);
     name.insert(0, name.size() < 10 ? 10 - name.size() : 0, '0');
     const fs::path file = folder / "data" / (name + ".txt");
-    if (!fs::exists(file, ignored)) continue;
+    if (!fs::exists(file, ignored)) {
+      ++missing;
+      continue;
+    }
     const auto rows = read_number_table(file, kColumns);
     if (rows.size() != 1) {
       throw InputError(file.string(), std::to_string(rows.size()) + " rows, expected one",
@@ -130,6 +134,9 @@ void add_oxts(const fs::path& folder, ImageDrive& drive, ImportReport& report) {
     require_on_earth(rows.front(), file);
     add_oxts_row(rows.front(), times[i], drive);
   }
+  if (missing == 0) return;
+  report.notes.push_back(std::to_string(missing) + " of " + std::to_string(times.size()) +
+                         " packets of oxts are not there");
 }
 
 double height_of(const DriveImport& options, ImportReport& report) {
