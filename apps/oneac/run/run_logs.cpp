@@ -166,6 +166,7 @@ void run_logs(const std::vector<std::string>& logs, const RunOptions& options) {
   const auto start = std::chrono::steady_clock::now();
   std::vector<Driven> driven = drive_all(each);
   std::vector<RecordedDrive> drives;
+  drives.reserve(driven.size());
   for (const Driven& log : driven) drives.push_back({&log.record, &log.options});
   const ClosedDrives closed = close_loops(drives);
   const std::chrono::duration<double> wall = std::chrono::steady_clock::now() - start;

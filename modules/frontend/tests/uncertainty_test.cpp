@@ -185,6 +185,30 @@ TEST(PositionCovariances, ACameraInDoubtIsUnsureOfItsTurns) {
   EXPECT_EQ(position_covariances(bend, 0.02, 0.001).back().trace(), sure);
 }
 
+TEST(PositionCovariances, AScrewOfManyLapsIsNoSurprise) {
+  // A quarter of the 1σ of rotation about the axis of the camera in every step: it climbs.
+  constexpr double kTurn = 2e-4;
+  const Eigen::AngleAxisd lap(2.0 * M_PI / 100.0, Eigen::Vector3d::UnitY());
+  StepResult step = metric_step({0.0, 0.0, -1.0}, 0.03);
+  step.covariance.setZero();
+  step.covariance.topLeftCorner<3, 3>().diagonal().setConstant(kTurn * kTurn);
+  std::vector<FrameResult> frames(1);
+  Eigen::Isometry3d screw = Eigen::Isometry3d::Identity();
+  for (int i = 0; i < 2000; ++i) {
+    FrameResult next;
+    next.step = step;
+    next.T_first_cam = frames.back().T_first_cam * Eigen::Translation3d(0.0, 0.0, 1.0) * lap;
+    frames.push_back(next);
+    screw = screw * Eigen::Translation3d(0.0, 0.0, 1.0) * lap *
+            Eigen::AngleAxisd(0.25 * kTurn, Eigen::Vector3d::UnitZ());
+  }
+  const double sigma = std::sqrt(position_covariances(frames, 0.0).back()(1, 1));
+  const double climbed = std::abs(screw.translation().y());
+  EXPECT_GT(climbed, 1.0);
+  EXPECT_LT(climbed, 2.0 * sigma);
+  EXPECT_GT(climbed, 0.5 * sigma) << "no more than needed";
+}
+
 TEST(PositionCovariances, AgreeWithChainsOfDisturbedSteps) {
   constexpr std::size_t kSteps = 20;
   constexpr int kTrials = 4000;
@@ -222,8 +246,9 @@ TEST(PositionCovariances, AgreeWithChainsOfDisturbedSteps) {
     Eigen::Isometry3d T = Eigen::Isometry3d::Identity();
     const double scale_of_turns = 0.01 * normal(draw);
     const Eigen::AngleAxisd more(scale_of_turns * 0.03, Eigen::Vector3d::UnitY());
+    const Eigen::Vector3d of_all = gauss(0.25 * kTurn);
     for (std::size_t i = 0; i < kSteps; ++i) {
-      const Eigen::Vector3d w = gauss(kTurn);
+      const Eigen::Vector3d w = of_all + gauss(kTurn);
       const Eigen::Matrix3d R = Eigen::AngleAxisd(w.norm(), w.normalized()) * more * motion.R;
       const Eigen::Vector3d t = motion.t + motion.t.norm() * across * gauss(kDirection);
       T.linear() *= R.transpose();

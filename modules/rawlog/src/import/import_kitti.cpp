@@ -129,7 +129,7 @@ void require_poses(const std::vector<std::vector<double>>& table, const fs::path
 /// In the sequence's folder, or where KITTI has them: sequences/03 and poses/03.txt.
 fs::path find_poses(const fs::path& source) {
   std::error_code ignored;
-  const fs::path own = source / "poses.txt";
+  fs::path own = source / "poses.txt";
   if (fs::exists(own, ignored)) return own;
   const fs::path folder = fs::canonical(source, ignored);
   const fs::path kittis =

@@ -18,8 +18,9 @@ namespace oneac {
 /// frame, R ← exp([θ]×) R and p ← p + δp of T_first_cam [rad², rad m, m²], by first-order
 /// propagation along the chain of its steps:
 ///   θ₂ = θ₁ − R₂ w,  p₂ = p₁ − [d]× θ₁ − R₂ (v + [t]× w),  d = p₂ − p₁, R₂ = R of T_first_cam.
-/// Errors of turn and direction are independent from step to step, and all turns share an error of
-/// their scale, that of the focal length. The relative error of length has
+/// Errors of turn and direction are independent from step to step, but for a quarter of the 1σ of
+/// rotation about each axis of the camera, which is the same in all steps; and all turns share an
+/// error of their scale, that of the focal length. The relative error of length has
 /// two parts: one that all steps share (the camera's height is the same wrong one throughout), and
 /// the rest, which the map carries on and forgets within some 20 m.
 /// A step without metres is unknown by its own length.
@@ -52,6 +53,8 @@ class PoseUncertainty {
   std::optional<Eigen::Isometry3d> before_;                ///< T_first_cam of the frame before
   Eigen::Vector3d turned_ = Eigen::Vector3d::Zero();       ///< [rad] 1σ by the scale of turns ...
   Eigen::Vector3d by_turns_ = Eigen::Vector3d::Zero();     ///< ... and of p by it
+  Eigen::Matrix3d rotated_ = Eigen::Matrix3d::Zero();      ///< [rad] 1σ by rotation that steps ...
+  Eigen::Matrix3d by_rotation_ = Eigen::Matrix3d::Zero();  ///< ... share, per axis; and of p by it
   Matrix6 turns_ = Matrix6::Zero();                        ///< of (θ, p)
   Eigen::Vector3d common_ = Eigen::Vector3d::Zero();       ///< 1σ of the shared error
   Eigen::Matrix3d lengths_ = Eigen::Matrix3d::Zero();      ///< of p by the rest
