@@ -56,6 +56,7 @@ std::string section_for(const fs::path& file, const RawPair& pair, const fs::pat
 template <class Row>
 std::vector<Row> picked(const std::vector<Row>& rows, const std::vector<std::size_t>& chosen) {
   std::vector<Row> some;
+  some.reserve(chosen.size());
   for (const std::size_t row : chosen) some.push_back(rows[row]);
   return some;
 }
