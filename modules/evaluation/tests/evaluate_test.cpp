@@ -157,6 +157,24 @@ TEST_F(EvaluatedRun, ThinnedTrajectoryMeetsATimedReferenceByThePairsTimes) {
   expect_exact(evaluate_files({estimate, file("truth.tum", format_tum(reference_))}));
 }
 
+TEST_F(EvaluatedRun, AnOffsetMovesTheTimesOfPairsAndOfThoseBesideATrajectory) {
+  constexpr double kOffset = 5.0;
+  give_times();
+  for (double& time : reference_.times) time += kOffset;
+  EvaluationRequest request;
+  request.reference = file("truth.tum", format_tum(reference_));
+  request.time.offset_s = kOffset;
+  file("relative_poses.csv", format_relative_poses(rows_));
+  request.estimate = file("trajectory_camera.kitti", format_kitti(estimate_));
+  expect_exact(evaluate_files(request));
+  rows_.erase(rows_.begin() + 3);  // they are no chain any more
+  request.estimate = file("relative_poses.csv", format_relative_poses(rows_));
+  const Evaluation pairs = evaluate_files(request);
+  EXPECT_EQ(pairs.pair_summary->pairs, 16U);
+  EXPECT_EQ(pairs.offset_s, kOffset);
+  EXPECT_TRUE(pairs.notes.empty());
+}
+
 TEST_F(EvaluatedRun, TumFilesAreAssociatedByTime) {
   give_times();
   const auto estimate = file("e.tum", format_tum(estimate_));
