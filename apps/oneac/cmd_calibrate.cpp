@@ -36,12 +36,12 @@ std::filesystem::path height_file(const std::filesystem::path& file) {
 
 /// One that no calibration has made is nobody's to overwrite.
 void require_own(const std::filesystem::path& file) {
-  const std::string fault = fault_of_file(file);
-  if (!fault.empty() && fault != "no such file") {
+  if (const std::string fault = fault_of_place(file); !fault.empty()) {
     throw InputError(file.string(), fault + ", where a file is to be written",
                      "give another name with -o");
   }
-  if (is_made_by_calibrate(file)) return;
+  std::error_code ignored;
+  if (!std::filesystem::exists(file, ignored) || is_made_by_calibrate(file)) return;
   throw InputError(file.string(), "it exists, and oneac calibrate has not made it",
                    "move it away, or give another name with -o");
 }

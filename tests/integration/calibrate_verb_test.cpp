@@ -40,6 +40,15 @@ class CalibrateVerb : public ::testing::Test {
     EXPECT_EQ(run_program(command).exit_code, 0);
     return folder("drive") + "/simulated.rawlog";
   }
+  /// A calibration of it with another focal length and lens. @return the file
+  [[nodiscard]] std::string camera(const std::string& name, const std::string& focal,
+                                   const std::string& lens) const {
+    const std::string file = folder(name + ".ini");
+    std::ofstream(file) << "[CAMERA_PARAMS]\nresolution = [320 240]\ncx = 159.5\ncy = 119.5\nfx = "
+                        << focal << "\nfy = " << focal << "\n"
+                        << lens;
+    return file;
+  }
   [[nodiscard]] std::string folder(const std::string& name) const {
     return (scratch_.path() / name).string();
   }
@@ -144,10 +153,8 @@ TEST_F(CalibrateVerb, HeightIsToldByWhatTellsMetresAndRunTakesIt) {
 
 TEST_F(CalibrateVerb, HeightThatTheLogContradictsSaysSo) {
   const std::string log = simulate({"--frames", "110", "--route", "straight"});
-  const std::string wrong = folder("wrong.ini");
   // Lengths by the road are as the focal length, so the height comes out too small.
-  std::ofstream(wrong) << "[CAMERA_PARAMS]\nresolution = [320 240]\ncx = 159.5\ncy = 119.5\n"
-                          "fx = 310\nfy = 310\ndist = [0 0 0 0 0]\n";
+  const std::string wrong = camera("wrong", "310", "dist = [0 0 0 0 0]\n");
   const ProgramResult result = run_program(
       {ONEAC_PROGRAM, "calibrate", log, "-o", folder("camera.ini"), "--calibration", wrong});
   ASSERT_EQ(result.exit_code, 0) << result.err;
@@ -218,9 +225,7 @@ TEST_F(CalibrateVerb, RunThatLearnsWritesTheCameraItUsedAndTouchesNoOther) {
 
 TEST_F(CalibrateVerb, CameraThatARunHasLearnedIsReadBackAsTheSame) {
   const std::string log = simulate({"--frames", "110"});
-  const std::string wrong = folder("wrong.ini");
-  std::ofstream(wrong) << "[CAMERA_PARAMS]\nresolution = [320 240]\ncx = 159.5\ncy = 119.5\n"
-                          "fx = 290\nfy = 290\ndist = [0 0 0 0 0]\n";
+  const std::string wrong = camera("wrong", "290", "dist = [0 0 0 0 0]\n");
   const std::string out = folder("out");
   ASSERT_EQ(run_program({ONEAC_PROGRAM, "run", log, "-o", out, "--calibration", wrong, "--set",
                          "front_end.calibration.refine=focal", "--set",
@@ -237,9 +242,7 @@ TEST_F(CalibrateVerb, CameraThatARunHasLearnedIsReadBackAsTheSame) {
 
 TEST_F(CalibrateVerb, LensThatARunHasLearnedIsItsCameraIni) {
   const std::string log = simulate({"--frames", "240"});
-  const std::string wrong = folder("wrong.ini");
-  std::ofstream(wrong) << "[CAMERA_PARAMS]\nresolution = [320 240]\ncx = 159.5\ncy = 119.5\n"
-                          "fx = 250\nfy = 250\ndist = [0.12 0 0 0 0]\n";
+  const std::string wrong = camera("wrong", "250", "dist = [0.12 0 0 0 0]\n");
   const std::string out = folder("out");
   ASSERT_EQ(run_program({ONEAC_PROGRAM, "run", log, "-o", out, "--calibration", wrong, "--set",
                          "front_end.calibration.refine=full"})
@@ -259,10 +262,9 @@ TEST_F(CalibrateVerb, LensThatARunHasLearnedIsItsCameraIni) {
 
 TEST_F(CalibrateVerb, FisheyeOfARunIsWrittenAsOne) {
   const std::string log = simulate({"--frames", "110"});
-  const std::string fisheye = folder("fisheye.ini");
-  std::ofstream(fisheye) << "[CAMERA_PARAMS]\nresolution = [320 240]\ncx = 159.5\ncy = 119.5\n"
-                            "fx = 250\nfy = 250\ndistortion = kannala_brandt\n"
-                            "dist = [0.3 0 0 0 0 0 0 0]\n";  // near a pinhole, tan θ
+  const std::string fisheye =
+      camera("fisheye", "250",
+             "distortion = kannala_brandt\ndist = [0.3 0 0 0 0 0 0 0]\n");  // near a pinhole, tan θ
   const std::string ini = folder("camera.ini");
   const ProgramResult result = run_program(
       {ONEAC_PROGRAM, "calibrate", log, "-o", ini, "--calibration", fisheye, "--passes", "1"});

@@ -15,7 +15,6 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
-#include <fstream>
 #include <utility>
 #include <vector>
 
@@ -29,7 +28,7 @@ constexpr std::size_t kRows = 4, kColumns = 8;  // of the residuals by region
 constexpr double kUnseen = 0.5;
 
 // Of the first line of a file that the next calibration may replace.
-constexpr const char* kMadeBy = "# made by oneac calibrate";
+constexpr const char* kMadeBy = "made by oneac calibrate";
 
 std::string percent(double share) {
   return fixed_text(100.0 * share, 1) + " %";
@@ -241,7 +240,7 @@ std::string height_verdict(const CameraHeight& height) {
 
 std::string height_yaml(const Calibration& c, const std::string& log) {
   if (!c.height.is_known()) return "";
-  return std::string(kMadeBy) + " (oneac " + version() + ") of " + log +
+  return "# " + std::string(kMadeBy) + " (oneac " + version() + ") of " + log +
          ": for --params, with the camera beside it\n# " + height_verdict(c.height) +
          "\nfront_end:\n  camera_height: " + fixed_text(c.height.metres, 3) +
          "\n  scale:\n    # of lengths by both\n    road_uncertainty: " +
@@ -250,20 +249,14 @@ std::string height_yaml(const Calibration& c, const std::string& log) {
 
 bool is_made_by_calibrate(const std::filesystem::path& file) {
   constexpr std::size_t kBeginning = 400;  // [byte]
-  const std::string fault = fault_of_file(file);
-  if (fault == "no such file") return true;
-  if (!fault.empty()) return false;
-  std::ifstream in(file, std::ios::binary);
-  std::string beginning(kBeginning, ' ');
-  in.read(beginning.data(), static_cast<std::streamsize>(kBeginning));
-  const std::string first = beginning.substr(0, beginning.find('\n'));
+  const std::string beginning = beginning_of(file, kBeginning);
   // A YAML or an INI file, or the report.
-  return first.find("made by oneac calibrate") != std::string::npos ||
+  return beginning.substr(0, beginning.find('\n')).find(kMadeBy) != std::string::npos ||
          beginning.find("<title>oneac calibrate</title>") != std::string::npos;
 }
 
 std::string camera_ini(const Calibration& c, const std::string& log) {
-  std::vector<std::string> remarks = {"made by oneac calibrate (oneac " + version() + ") of " + log,
+  std::vector<std::string> remarks = {std::string(kMadeBy) + " (oneac " + version() + ") of " + log,
                                       verdict_of(c)};
   for (const Line& line : lines_of(c)) remarks.push_back(text_of(line));
   for (const std::string& line : more_lines(c)) remarks.push_back(line);

@@ -91,13 +91,6 @@ constexpr const char* kCameraFile = "camera.ini";
 // What the first line of it begins with: others write files of this name.
 constexpr const char* kOfARun = "// used by oneac run";
 
-bool is_camera_of_a_run(const std::filesystem::path& file) {
-  if (!fault_of_file(file).empty()) return false;
-  std::ifstream in(file);
-  std::string line;
-  return std::getline(in, line) && line.rfind(kOfARun, 0) == 0;
-}
-
 /// Names that people give their own files, too: a run's have this at their beginning.
 struct Signature {
   std::string_view name, text;
@@ -105,26 +98,19 @@ struct Signature {
 constexpr Signature kSignatures[] = {{"trajectory.gpx", "creator=\"oneac"},
                                      {"trajectory.kml", "<name>oneac</name>"},
                                      {"files.json", "\"by\": \"oneac"}};
+constexpr std::size_t kBeginning = 400;  // [byte]
 
-std::string beginning_of(const std::filesystem::path& file) {
-  constexpr std::size_t kBeginning = 400;  // [byte]
-  if (!fault_of_file(file).empty()) return "";
-  std::ifstream in(file, std::ios::binary);
-  std::string beginning(kBeginning, ' ');
-  in.read(beginning.data(), static_cast<std::streamsize>(kBeginning));
-  return beginning;
-}
-
-bool has_signature(const Signature& signature, const std::filesystem::path& file) {
-  return beginning_of(file).find(signature.text) != std::string::npos;
+bool begins_with(const std::filesystem::path& file, std::string_view text) {
+  return beginning_of(file, text.size()) == text;
 }
 
 /// Not what a run has written.
 bool belongs_to_others(std::string_view name, const std::filesystem::path& file) {
   for (const Signature& signature : kSignatures) {
-    if (name == signature.name) return !has_signature(signature, file);
+    if (name != signature.name) continue;
+    return beginning_of(file, kBeginning).find(signature.text) == std::string::npos;
   }
-  return name == kCameraFile && !is_camera_of_a_run(file);
+  return name == kCameraFile && !begins_with(file, kOfARun);
 }
 
 /// What an earlier run has left in a folder.
@@ -132,10 +118,9 @@ class EarlierRun {
  public:
   explicit EarlierRun(const std::filesystem::path& folder) : folder_(folder) {
     // The first file of every run, and those that others do not write; the list is its last.
-    left_some_ =
-        fault_of_file(folder / "trajectory_camera.kitti").empty() ||
-        beginning_of(folder / "relative_poses.csv").rfind("index1,index2,t1,t2,", 0) == 0 ||
-        beginning_of(folder / "summary.json").rfind("{\n  \"version\": \"", 0) == 0;
+    left_some_ = fault_of_file(folder / "trajectory_camera.kitti").empty() ||
+                 begins_with(folder / "relative_poses.csv", "index1,index2,t1,t2,") ||
+                 begins_with(folder / "summary.json", "{\n  \"version\": \"");
     if (belongs_to_others("files.json", folder / "files.json")) return;
     std::ifstream in(folder / "files.json");
     const auto list = nlohmann::json::parse(in, nullptr, false);
@@ -170,15 +155,12 @@ bool is_input(const std::filesystem::path& file, const std::vector<std::string>&
 void require_own_result(const std::filesystem::path& file, const EarlierRun& earlier,
                         const std::vector<std::string>& inputs) {
   const std::string another = "name another folder with -o";
-  std::error_code error;
-  const auto status = std::filesystem::symlink_status(file, error);
-  if (status.type() == std::filesystem::file_type::not_found) return;
-  const std::string fault = fault_of_file(file);
-  if (fault == "no such file") return;  // a link to what will be written
-  if (!fault.empty()) {
+  if (const std::string fault = fault_of_place(file); !fault.empty()) {
     throw InputError(file.string(), fault + " and has the name of a result",
                      "take it away, or " + another);
   }
+  std::error_code ignored;
+  if (!std::filesystem::exists(file, ignored)) return;  // or a link to what will be written
   if (is_input(file, inputs)) {
     throw InputError(file.string(), "is read by this run, whose results would replace it", another);
   }

@@ -33,10 +33,10 @@ CLI::Validator number_that(const Bound& holds, const std::string& bound, const c
 /// CLI11 gets "8" for "+8" and "08", which it would read in base 8, and nothing that it would cut.
 template <class Number>
 std::string take_whole(std::string& text) {
-  const bool plus = text.size() > 1 && text[0] == '+' && text[1] != '-';
+  const std::string_view digits = without_plus(text);
   Number value = 0;
-  const char* end = text.data() + text.size();
-  const auto result = std::from_chars(text.data() + (plus ? 1 : 0), end, value);
+  const char* end = digits.data() + digits.size();
+  const auto result = std::from_chars(digits.data(), end, value);
   if (result.ec != std::errc() || result.ptr != end) {
     return in_quotes(text) + " must be a whole number from " +
            std::to_string(std::numeric_limits<Number>::min()) + " to " +

@@ -13,16 +13,32 @@ namespace {
 
 namespace fs = std::filesystem;
 
+constexpr const char* kNothingThere = "no such file";
+
 }  // namespace
 
 std::string fault_of_file(const fs::path& path) {
   std::error_code error;
   const fs::file_status status = fs::status(path, error);
   if (status.type() == fs::file_type::regular) return "";
-  if (status.type() == fs::file_type::not_found) return "no such file";
+  if (status.type() == fs::file_type::not_found) return kNothingThere;
   if (error) return "cannot be read (" + error.message() + ")";
   if (status.type() == fs::file_type::directory) return "is a folder";
   return "is a pipe, a device or a socket, not a file";
+}
+
+std::string fault_of_place(const fs::path& path) {
+  std::string fault = fault_of_file(path);
+  return fault == kNothingThere ? "" : fault;
+}
+
+std::string beginning_of(const fs::path& path, std::size_t bytes) {
+  if (!fault_of_file(path).empty()) return "";
+  std::ifstream in(path, std::ios::binary);
+  std::string beginning(bytes, '\0');
+  in.read(beginning.data(), static_cast<std::streamsize>(bytes));
+  beginning.resize(static_cast<std::size_t>(in.gcount()));
+  return beginning;
 }
 
 std::ifstream open_input(const fs::path& path, const std::string& cure) {

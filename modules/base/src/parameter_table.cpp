@@ -1,5 +1,6 @@
 #include "oneac/base/parameter_table.h"
 
+#include "oneac/base/finite_number.h"
 #include "oneac/base/nearest_name.h"
 #include "oneac/base/number_text.h"
 #include "oneac/base/printable.h"
@@ -8,6 +9,7 @@
 #include <algorithm>
 #include <charconv>
 #include <stdexcept>
+#include <string_view>
 #include <system_error>
 #include <type_traits>
 
@@ -18,9 +20,9 @@ constexpr std::size_t kLongestValue = 60;  // [byte] in a message
 
 template <class Number>
 bool parse(const std::string& text, Number& value) {
-  const char* end = text.data() + text.size();
-  const bool plus = text.size() > 1 && text[0] == '+' && text[1] != '-';  // from_chars knows none
-  const auto [stop, error] = std::from_chars(text.data() + (plus ? 1 : 0), end, value);
+  const std::string_view digits = without_plus(text);
+  const char* end = digits.data() + digits.size();
+  const auto [stop, error] = std::from_chars(digits.data(), end, value);
   return error == std::errc{} && stop == end;
 }
 

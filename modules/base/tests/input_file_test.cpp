@@ -24,6 +24,23 @@ TEST(InputFile, TakesFilesAndLinksToThem) {
   EXPECT_EQ(fault_of_file(folder.path() / "link"), "");
 }
 
+TEST(InputFile, APlaceForAFileIsEmptyOrHoldsOne) {
+  const TemporaryFolder folder;
+  std::ofstream(folder.path() / "a") << "x";
+  EXPECT_EQ(fault_of_place(folder.path() / "a"), "");
+  EXPECT_EQ(fault_of_place(folder.path() / "nothing"), "");
+  EXPECT_EQ(fault_of_place(folder.path()), "is a folder");
+}
+
+TEST(InputFile, TellsHowAFileBegins) {
+  const TemporaryFolder folder;
+  std::ofstream(folder.path() / "a") << "long";
+  EXPECT_EQ(beginning_of(folder.path() / "a", 2), "lo");
+  EXPECT_EQ(beginning_of(folder.path() / "a", 9), "long");
+  EXPECT_EQ(beginning_of(folder.path() / "nothing", 9), "");
+  EXPECT_EQ(beginning_of(folder.path(), 9), "");
+}
+
 TEST(InputFile, SaysWhatElseAPathIs) {
   const TemporaryFolder folder;
   ASSERT_EQ(::mkfifo((folder.path() / "pipe").c_str(), 0600), 0);

@@ -6,6 +6,7 @@ namespace oneac {
 namespace {
 
 constexpr double kDelta = 1e-5;  // [-] of central differences
+
 }  // namespace
 
 Eigen::Vector2d CameraChange::operator()(const Eigen::Vector2d& x) const {

@@ -11,6 +11,12 @@
 namespace oneac {
 namespace {
 
+CameraLearner learning(const char* refine) {
+  SelfCalibrationOptions options;
+  options.refine = refine;
+  return CameraLearner(options);
+}
+
 /// What the front-end makes of a place in an undistorted image, as far as it has learned.
 Eigen::Vector2d normalised_by(const CameraLearner& learner, const Eigen::Vector2d& undistorted) {
   TrackedPair pair;
@@ -112,9 +118,7 @@ TEST(CameraLearner, DoubtsAFocalLengthBeforeItAccusesIt) {
 }
 
 TEST(CameraLearner, UsesWhatItLearnedWhenAskedTo) {
-  SelfCalibrationOptions options;
-  options.refine = "focal";
-  CameraLearner learner(options);
+  CameraLearner learner = learning("focal");
   learner.start(true_camera());
   drive_on(learner, 0.03, 1.03);
   EXPECT_NEAR(learner.used().fx, 720.0 * 1.03, 720.0 * 0.01);
@@ -124,14 +128,12 @@ TEST(CameraLearner, UsesWhatItLearnedWhenAskedTo) {
 }
 
 TEST(CameraLearner, LearnsALensWhenAskedToOfRawImages) {
-  SelfCalibrationOptions options;
-  options.refine = "full";
   PinholeCamera given = true_camera(), truth = true_camera();
   given.distortion = {-0.3, 0.1, 1e-3, -5e-4, 0.0};
   truth.distortion = {-0.2, 0.05, 1e-3, -5e-4, 0.0};
   truth.fx = truth.fy = 1.02 * truth.fx;
   truth.cx += 8.0;
-  CameraLearner learner(options);
+  CameraLearner learner = learning("full");
   learner.start(true_camera(), given);
   drive_with(learner, 0.03, truth, given);
   drive_with(learner, 0.03, truth, given);  // its keyframes are normalised by what was learned
@@ -148,12 +150,10 @@ TEST(CameraLearner, LearnsALensWhenAskedToOfRawImages) {
 }
 
 TEST(CameraLearner, LooksAtUndistortedImagesWhereALongerFocalLengthIsNoOtherLens) {
-  SelfCalibrationOptions options;
-  options.refine = "focal";
   PinholeCamera fisheye = true_camera(), truth = true_camera();
   fisheye.lens = LensModel::kannala_brandt;
   truth.distortion[0] = 0.06;
-  CameraLearner learner(options);
+  CameraLearner learner = learning("focal");
   learner.start(true_camera(), fisheye);
   drive_with(learner, 0.03, truth);
   EXPECT_FALSE(learner.belief().knows_raw);
@@ -162,14 +162,12 @@ TEST(CameraLearner, LooksAtUndistortedImagesWhereALongerFocalLengthIsNoOtherLens
 }
 
 TEST(CameraLearner, LearnsAFisheyeOfRawImages) {
-  SelfCalibrationOptions options;
-  options.refine = "full";
   PinholeCamera given = true_camera();
   given.lens = LensModel::kannala_brandt;
   PinholeCamera truth = given;
   truth.distortion[0] = -0.06;
   truth.cx += 8.0;
-  CameraLearner learner(options);
+  CameraLearner learner = learning("full");
   learner.start(true_camera(), given);
   for (int i = 0; i < 2; ++i) drive_with(learner, 0.03, truth, given);
   ASSERT_TRUE(learner.lens().has_value());
@@ -180,9 +178,7 @@ TEST(CameraLearner, LearnsAFisheyeOfRawImages) {
 }
 
 TEST(CameraLearner, KeepsALensThatBendsDoNotContradict) {
-  SelfCalibrationOptions options;
-  options.refine = "full";
-  CameraLearner learner(options);
+  CameraLearner learner = learning("full");
   learner.start(true_camera());
   drive_on(learner, 0.03, 1.0);
   drive_on(learner, 0.03, 1.0);
@@ -192,9 +188,7 @@ TEST(CameraLearner, KeepsALensThatBendsDoNotContradict) {
 }
 
 TEST(CameraLearner, KeepsAGivenFocalLengthThatBendsDoNotContradict) {
-  SelfCalibrationOptions options;
-  options.refine = "focal";
-  CameraLearner learner(options);
+  CameraLearner learner = learning("focal");
   learner.start(true_camera());
   drive_on(learner, 0.03, 1.0);
   EXPECT_NE(learner.belief().focal_px, true_camera().fx);

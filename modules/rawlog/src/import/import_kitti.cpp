@@ -158,8 +158,8 @@ std::string poses_of(const fs::path& source, const Sequence& sequence, ImportRep
 /// Where they are written, which can be a file. @throws InputError
 fs::path place_of_poses(const fs::path& log) {
   fs::path file = log.parent_path() / (log.stem().string() + "_poses.txt");
-  const std::string fault = fault_of_file(file);
-  if (fault.empty() || fault == "no such file") return file;
+  const std::string fault = fault_of_place(file);
+  if (fault.empty()) return file;
   throw InputError(file.string(), fault + ", where the poses are to be written",
                    "take it away, or give another name with -o");
 }

@@ -75,8 +75,7 @@ void require_rawlog_or_nothing(const fs::path& file) {
 
 /// The log, or the file that it links to.
 fs::path log_to_replace(const fs::path& log) {
-  const std::string fault = fault_of_file(log);
-  if (!fault.empty() && fault != "no such file") {
+  if (const std::string fault = fault_of_place(log); !fault.empty()) {
     throw InputError(log.string(), fault, "give the name of a file, such as drive.rawlog");
   }
   require_rawlog_or_nothing(log);

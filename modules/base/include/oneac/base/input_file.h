@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <filesystem>
 #include <fstream>
 #include <string>
@@ -10,6 +11,13 @@ namespace oneac {
 /// the system's reason; "" for a regular file and for a link to one. Opens nothing: a pipe without
 /// a writer would hold the program.
 [[nodiscard]] std::string fault_of_file(const std::filesystem::path& path);
+
+/// What keeps a file from being written to a path, as of fault_of_file(); "" also where there is
+/// nothing yet.
+[[nodiscard]] std::string fault_of_place(const std::filesystem::path& path);
+
+/// The first bytes of a file, fewer where it is shorter, none where it is no file.
+[[nodiscard]] std::string beginning_of(const std::filesystem::path& path, std::size_t bytes);
 
 /// Opens a file for reading, byte by byte.
 /// @param cure  what the user can do when it is not there or no file

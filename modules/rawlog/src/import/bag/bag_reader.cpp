@@ -13,7 +13,6 @@
 #include <cerrno>
 #include <csignal>
 #include <cstring>
-#include <fstream>
 
 namespace oneac {
 namespace {
@@ -28,13 +27,6 @@ bool is_of_ros2(const fs::path& bag, const std::string& begin) {
   if (fs::is_directory(bag, ignored)) return fs::exists(bag / "metadata.yaml", ignored);
   return begin.rfind("SQLite format 3", 0) == 0 || begin.rfind("\x89MCAP", 0) == 0 ||
          bag.extension() == ".db3" || bag.extension() == ".mcap";
-}
-
-std::string begin_of(const fs::path& file) {
-  std::ifstream in(file, std::ios::binary);
-  std::array<char, 16> bytes{};
-  in.read(bytes.data(), bytes.size());
-  return {bytes.data(), static_cast<std::size_t>(in.gcount())};
 }
 
 /// "name\0type\0md5"
@@ -75,7 +67,7 @@ class FileActions {
 void require_bag(const fs::path& bag) {
   std::error_code ignored;
   const bool there = fs::exists(bag, ignored);
-  const std::string begin = fault_of_file(bag).empty() ? begin_of(bag) : "";
+  const std::string begin = beginning_of(bag, 16);
   if (there && is_of_ros2(bag, begin)) {
     throw InputError(bag.string(), "is a bag of ROS 2, not of ROS 1",
                      "convert it with ROS 2's rosbag2rawlog, and give its rawlog to `oneac run`");
