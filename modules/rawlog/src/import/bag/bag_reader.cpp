@@ -117,6 +117,7 @@ void BagReader::start(const fs::path& program, const std::vector<std::string>& t
   std::vector<std::string> words{program.string(), fs::absolute(bag_).string()};
   words.insert(words.end(), topics.begin(), topics.end());
   std::vector<char*> arguments;
+  arguments.reserve(words.size() + 1);
   for (std::string& word : words) arguments.push_back(word.data());
   arguments.push_back(nullptr);
   std::array<int, 2> ends{-1, -1};
