@@ -181,7 +181,9 @@ class Drive {
   /// Called by several threads at once.
   [[nodiscard]] Prepared prepare(const FrameTicket& ticket) const {
     CameraFrame frame = source_.load(ticket);
-    const double decode_ms = frame.decode_ms, masked = share_left_out(frame.mask.view());
+    const bool given = !options_.source.mask_dir.empty();  // else it is undistortion's rim
+    const double decode_ms = frame.decode_ms;
+    const double masked = given ? share_left_out(frame.mask.view()) : 0.0;
     return Prepared{front_end_.prepare(std::move(frame)), decode_ms, masked, ticket.wheels};
   }
 

@@ -26,4 +26,14 @@ double share_left_out(const ImageView& mask) {
   return static_cast<double>(out) / mask.width / mask.height;
 }
 
+GreyImage darker(GreyImage a, const GreyImage& b) {
+  if (a.empty()) return b;
+  if (b.empty()) return a;
+  for (int v = 0; v < a.height(); ++v) {
+    std::transform(a.row(v), a.row(v) + a.width(), b.row(v), a.row(v),
+                   [](std::uint8_t x, std::uint8_t y) { return std::min(x, y); });
+  }
+  return a;
+}
+
 }  // namespace oneac

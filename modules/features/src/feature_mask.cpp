@@ -6,10 +6,8 @@
 #include <opencv2/core.hpp>
 #include <opencv2/imgcodecs.hpp>
 
-#include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <cstdint>
 #include <filesystem>
 #include <locale>
 #include <sstream>
@@ -96,16 +94,6 @@ void FeatureMask::require_size(int width, int height) const {
                        std::to_string(picture_.height()) + " pixels, the images " +
                        std::to_string(width) + "x" + std::to_string(height),
                    "make it of the same size");
-}
-
-GreyImage darker(GreyImage a, const GreyImage& b) {
-  if (a.empty()) return b;
-  if (b.empty()) return a;
-  for (int v = 0; v < a.height(); ++v) {
-    std::transform(a.row(v), a.row(v) + a.width(), b.row(v), a.row(v),
-                   [](std::uint8_t x, std::uint8_t y) { return std::min(x, y); });
-  }
-  return a;
 }
 
 }  // namespace oneac::internal

@@ -50,7 +50,4 @@ class FeatureMask {
 /// @throws std::invalid_argument for another size than the image's
 [[nodiscard]] GreyImage mask_of_image(const ImageView& image, const ImageView& mask);
 
-/// Dark where either is; an empty picture is dark nowhere. @pre the same size
-[[nodiscard]] GreyImage darker(GreyImage a, const GreyImage& b);
-
 }  // namespace oneac::internal

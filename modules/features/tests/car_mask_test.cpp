@@ -32,6 +32,7 @@ struct Drive {
   bool lines = false;                   ///< lane lines without gaps
   bool traffic = false;                 ///< a vehicle passes left, another goes away right
   bool text = false;                    ///< burnt into the picture near its lower border
+  double circle_px = 0.0;               ///< radius of a lens's picture, black outside; 0: no circle
 };
 
 constexpr double kFar = 16.0;  // [camera heights] where all that is farther stands
@@ -61,6 +62,10 @@ bool is_traffic(const Drive& drive, int frame, int u, int v) {
          ((u > left - 60 && u < left) || (u > right - 60 && u < right));
 }
 
+double from_centre(int u, int v) {
+  return std::hypot(u - 0.5 * kWidth, v - 0.5 * kHeight);
+}
+
 GreyImage picture(const Drive& drive, int frame) {
   static const Texture kScene(3), kCar(4);
   GreyImage image(kWidth, kHeight);
@@ -73,6 +78,7 @@ GreyImage picture(const Drive& drive, int frame) {
       if (is_traffic(drive, frame, u, v)) grey = kCar(u + 4 * (frame % 30), v);
       const bool truck = drive.truck_low > 0 && v < drive.truck_low && v > 60 && u > 190 && u < 290;
       if (truck || (drive.bonnet && v >= kBonnet)) grey = kCar(u, v);
+      if (drive.circle_px > 0.0 && from_centre(u, v) > drive.circle_px) grey = 8 + (u + v) % 3;
       image.row(v)[u] = static_cast<std::uint8_t>(std::clamp(std::lround(grey), 0L, 255L));
     }
   }
@@ -108,6 +114,35 @@ Drive with_bonnet() {
   Drive drive;
   drive.bonnet = true;
   return drive;
+}
+
+TEST(CarMask, LearnsWhatALensLeavesBlackAndItsEdge) {
+  Drive drive;
+  drive.circle_px = 220.0;
+  CarMask mask;
+  watch(mask, drive, 0, 60);
+  const GreyImage learned = mask.picture();
+  ASSERT_FALSE(learned.empty());
+  for (int v = 12; v < kHeight - 12; v += 2) {  // no corner is nearer to the border
+    for (int u = 0; u < kWidth; u += 2) {
+      const double beyond = from_centre(u, v) - drive.circle_px;
+      if (beyond > -12.0) {
+        EXPECT_EQ(learned.row(v)[u], 0) << u << ' ' << v << ": corners here would rest";
+      } else if (beyond < -36.0) {
+        EXPECT_EQ(learned.row(v)[u], 255) << u << ' ' << v << ": the lens sees this";
+      }
+    }
+  }
+}
+
+TEST(CarMask, DropsARimThatShowsSomethingAfterAll) {
+  Drive tunnel;
+  tunnel.circle_px = 220.0;
+  CarMask mask;
+  watch(mask, tunnel, 0, 60);
+  ASSERT_FALSE(mask.usable({5.0, 5.0}));
+  watch(mask, Drive(), 60, 10);
+  EXPECT_TRUE(mask.usable({5.0, 5.0}));
 }
 
 TEST(CarMask, LearnsABonnetWithinThirtyFrames) {

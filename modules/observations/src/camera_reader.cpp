@@ -3,6 +3,7 @@
 #include "undistortion.h"
 
 #include "oneac/base/error.h"
+#include "oneac/base/mask.h"
 #include "oneac/geometry/camera_plausibility.h"
 #include "oneac/mrpt_compat/observations.h"
 
@@ -123,6 +124,13 @@ Eigen::Isometry3d CameraReader::mount(const CameraView& view) const {
 
 GreyImage CameraReader::rectify(GreyImage grey, const std::string& name) const {
   return state_->undistorter.rectify(std::move(grey), name);
+}
+
+GreyImage CameraReader::unused(const GreyImage& rectified, GreyImage mask,
+                               const std::string& name) const {
+  const Undistorter& undistorter = state_->undistorter;
+  if (mask.empty()) return undistorter.unseen(rectified);
+  return darker(undistorter.rectify(std::move(mask), name), undistorter.unseen(rectified));
 }
 
 PinholeCamera CameraReader::rectified_camera(const GreyImage& image) const {

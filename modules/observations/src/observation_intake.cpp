@@ -206,7 +206,7 @@ void ObservationIntake::add_pixels(const Sight& sight, const std::string& where,
     const std::string name = name_of(*of.pixels, its);
     require_mask(its_mask, stored, name);
     GreyImage image = reader_->rectify(std::move(stored), name);
-    if (!its_mask.empty()) mask = reader_->rectify(GreyImage(its_mask), "the mask of " + name);
+    mask = reader_->unused(image, GreyImage(its_mask), "the mask of " + name);
     return image;
   };
   frame.image = rectified(*sight.view, where, sight.masks.image, frame.mask);

@@ -17,6 +17,9 @@ namespace {
 constexpr double kRoadKept = 0.9;          // of the lower half: what is lost is the bonnet's rim
 constexpr double kWidestChosen_deg = 120;  // across; from here on a pinhole image is mostly rim
 constexpr std::size_t kFisheyeTerms = 4;
+// [px] As far as corners keep from the edges of an image. Nearer to it the rim would be one edge of
+// their patches, and stand still while the car travels.
+constexpr int kRimReach = 12;
 
 std::string size_text(int width, int height) {
   return std::to_string(width) + "x" + std::to_string(height);
@@ -120,7 +123,10 @@ void Undistorter::prepare(int width, int height) const {
     size_ = {width, height};
     const PinholeCamera camera = camera_for(width, height);
     rectified_ = undistorted_pinhole(camera, options_.fov_deg);
-    if (camera.is_distorted()) compute_map(camera, size_);
+    if (camera.is_distorted()) {
+      compute_map(camera, size_);
+      unseen_ = rim(size_);
+    }
     if (camera.fx == camera_.fx && camera.fy == camera_.fy) return;
     const std::lock_guard lock(noted_);
     scaling_note_ = "the images are " + size_text(width, height) + ", their calibration is for " +
@@ -151,11 +157,33 @@ void Undistorter::check_size(const GreyImage& grey, const std::string& name) con
 GreyImage Undistorter::rectify(GreyImage grey, const std::string& name) const {
   check_size(grey, name);
   if (!camera_.is_distorted()) return grey;
-  GreyImage rectified(grey.width(), grey.height());
-  const cv::Mat from(grey.height(), grey.width(), CV_8U, grey.row(0));
+  return remapped(grey);
+}
+
+GreyImage Undistorter::remapped(const GreyImage& stored) const {
+  GreyImage rectified(stored.width(), stored.height());
+  const ImageView view = stored.view();
+  // OpenCV has no matrices of constant pixels; these are only read.
+  const cv::Mat from(view.height, view.width, CV_8U, const_cast<std::uint8_t*>(view.data));
   cv::Mat to(rectified.height(), rectified.width(), CV_8U, rectified.row(0));
   cv::remap(from, to, map1_, map2_, cv::INTER_LINEAR, cv::BORDER_CONSTANT);
   return rectified;
+}
+
+GreyImage Undistorter::rim(const cv::Size& size) const {
+  constexpr std::uint8_t kWhite = 255;
+  GreyImage seen = remapped(GreyImage(size.width, size.height, kWhite));
+  cv::Mat mask(size, CV_8U, seen.row(0));
+  mask = mask == kWhite;  // a pixel that is mixed with black is no picture of the scene either
+  if (cv::countNonZero(mask) == mask.rows * mask.cols) return {};
+  const int side = 2 * kRimReach + 1;
+  cv::erode(mask.clone(), mask, cv::getStructuringElement(cv::MORPH_RECT, {side, side}));
+  return seen;
+}
+
+GreyImage Undistorter::unseen(const GreyImage& image) const {
+  prepare(image.width(), image.height());
+  return unseen_;
 }
 
 PinholeCamera Undistorter::rectified_camera(const GreyImage& image) const {

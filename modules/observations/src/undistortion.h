@@ -37,6 +37,10 @@ class Undistorter {
   /// @throws InputError naming the image when its size is not the calibration's or, where that is
   ///         not known or scaled, not that of the images before
   [[nodiscard]] GreyImage rectify(GreyImage grey, const std::string& name) const;
+  /// Dark where the image as it is stored gives rectified images nothing (a rim of black, where
+  /// the pinhole camera sees more than the lens), with as much beside it as comparisons of patches
+  /// would reach over; empty where all of them is seen.
+  [[nodiscard]] GreyImage unseen(const GreyImage& image) const;
   /// The camera of the rectified images.
   [[nodiscard]] PinholeCamera rectified_camera(const GreyImage& image) const;
   /// The camera of the images as they are stored, scaled to their size where it may be.
@@ -48,6 +52,8 @@ class Undistorter {
   void check_size(const GreyImage& grey, const std::string& name) const;
   void prepare(int width, int height) const;
   void compute_map(const PinholeCamera& camera, const cv::Size& size) const;
+  [[nodiscard]] GreyImage remapped(const GreyImage& stored) const;
+  [[nodiscard]] GreyImage rim(const cv::Size& size) const;
 
   PinholeCamera camera_;
   UndistorterOptions options_;
@@ -58,6 +64,7 @@ class Undistorter {
   mutable std::string scaling_note_;
   mutable cv::Mat map1_;
   mutable cv::Mat map2_;
+  mutable GreyImage unseen_;
 };
 
 }  // namespace oneac

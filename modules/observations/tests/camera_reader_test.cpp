@@ -4,7 +4,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace oneac {
 namespace {
@@ -117,6 +119,34 @@ TEST(CameraReader, UndistortsEachLensByItsFormula) {
   expect_undistorts(
       {640, 480, 400, 402, 318, 242, {0.2, 0.05, 0.001, -0.002, 0.01, 0.5, 0.1, 0.02}});
   expect_undistorts(fisheye());
+}
+
+TEST(CameraReader, LeavesOutTheRimThatItsLensDoesNotSee) {
+  const PinholeCamera pincushion{640, 480, 400, 402, 318, 242, {0.3, 0.1, 0, 0, 0}};
+  const CameraReader reader = reader_with(pincushion);
+  const GreyImage white = reader.rectify(GreyImage(640, 480, 255), "a");
+  const GreyImage unused = reader.unused(white, {}, "none");
+  ASSERT_EQ(unused.width(), 640);
+  EXPECT_EQ(unused.row(242)[318], 255);
+  for (int v = 0; v < 480; v += 3) {
+    for (int u = 0; u < 628; u += 3) {
+      if (white.row(v)[u] == 255) continue;  // seen
+      EXPECT_EQ(unused.row(v)[u], 0) << u << ' ' << v;
+      EXPECT_EQ(unused.row(v)[u + 12], 0) << "corners there would stand still: " << u << ' ' << v;
+    }
+  }
+  const PinholeCamera barrel{640, 480, 400, 402, 318, 242, {-0.2, 0.1, 0, 0, 0}};
+  EXPECT_TRUE(reader_with(barrel).unused(white, {}, "none").empty()) << "its lens sees all of it";
+}
+
+TEST(CameraReader, JoinsTheRimWithTheMaskOfTheImage) {
+  const CameraReader reader = reader_with({640, 480, 400, 402, 318, 242, {0.3, 0.1, 0, 0, 0}});
+  GreyImage mask(640, 480, 255);
+  for (int v = 200; v < 300; ++v) std::fill(mask.row(v) + 300, mask.row(v) + 340, 0);
+  const GreyImage unused = reader.unused(GreyImage(640, 480), std::move(mask), "a mask");
+  EXPECT_EQ(unused.row(242)[318], 0);
+  EXPECT_EQ(unused.row(242)[200], 255);
+  EXPECT_EQ(unused.row(2)[2], 0);
 }
 
 TEST(CameraReader, KeepsTheFocalLengthsOfALensThatLosesLittle) {

@@ -235,6 +235,19 @@ TEST_F(Source, UndistortsRawImages) {
   EXPECT_GT(std::abs(seen.at<std::uint8_t>(10, 12) - grey_at(12, 10)), 2.0) << "the test is blunt";
 }
 
+TEST_F(Source, MasksWhatUndistortionLeavesBlack) {
+  auto observation = test::external_image("CAM", 0, "a.png");
+  observation->cameraParams.setDistortionPlumbBob(0.9, 0.5, 0, 0);
+  cv::imwrite((folder_.path() / "a.png").string(),
+              cv::Mat(test::kHeight, test::kWidth, CV_8U, cv::Scalar(200)));
+  test::write_log(options_.log, {observation});
+  const auto frame = all().at(0);
+  ASSERT_FALSE(frame.mask.empty());
+  EXPECT_EQ(frame.image.row(1)[1], 0);
+  EXPECT_EQ(frame.mask.row(1)[1], 0);
+  EXPECT_EQ(frame.mask.row(24)[32], 255);
+}
+
 TEST_F(Source, CalibrationOverrideLeavesRectifiedImagesAlone) {
   auto observation = test::external_image("CAM", 0, "a.png");
   observation->cameraParams.setDistortionPlumbBob(-0.3, 0.1, 0, 0);

@@ -96,10 +96,11 @@ bool CarMask::observe(const ImagePyramid& now, const MotionHint& hint) {
   shows_travel_ = false;
   if (!outlook_) return false;
   const Travel travel = travel_to(smoothed_for_travel(now.levels[kCoarse]), *outlook_);
-  if (!travel.shown || !is_straight(travel, hint)) return false;
+  const bool rim_is_new = travel.shown && rim_.add(now.levels[kFine]);
+  if (!travel.shown || !is_straight(travel, hint)) return rim_is_new;
   const int first = outlook_->first_row_below(-std::sin(kDistant), width_, height_);
   structure_.add(now.levels[kFine], outlook_->foe / (1 << kFine), first / (1 << kFine));
-  if (++undecided_ < kEvery) return false;
+  if (++undecided_ < kEvery) return rim_is_new;
   undecided_ = 0;
   decide(*outlook_);
   return true;
@@ -192,7 +193,7 @@ bool CarMask::is_suspected(const Eigen::Vector2d& u) const {
 }
 
 bool CarMask::usable(const Eigen::Vector2d& u) const {
-  return !is_suspected(u) && !is_car(u);
+  return !is_suspected(u) && !is_fixed(u);
 }
 
 bool CarMask::is_car(const Eigen::Vector2d& u) const {
@@ -203,9 +204,13 @@ bool CarMask::is_car(const Eigen::Vector2d& u) const {
   return car_[grid_.at(column, row)];
 }
 
+bool CarMask::is_fixed(const Eigen::Vector2d& u) const {
+  return is_car(u) || rim_.covers(u / (1 << kFine));
+}
+
 GreyImage CarMask::picture() const {
-  if (!any_) return {};
-  return dark_where(width_, height_, [this](const Eigen::Vector2d& u) { return is_car(u); });
+  if (!any_ && !rim_.any()) return {};
+  return dark_where(width_, height_, [this](const Eigen::Vector2d& u) { return is_fixed(u); });
 }
 
 }  // namespace oneac::internal

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "car_region.h"
+#include "dark_rim.h"
 #include "patch/image_pyramid.h"
 #include "static_structure.h"
 #include "travel.h"
@@ -16,7 +17,7 @@ namespace oneac::internal {
 
 /// Learns over the drive what is fixed to the car (bonnet, its ornaments and dust, a bar at the
 /// lower border) by what only the car can do: rest in the image, far below the horizon, while the
-/// image shows travel. docs/decisions/car-mask.md.
+/// image shows travel; and what its lens leaves black, see DarkRim. docs/decisions/car-mask.md.
 ///
 /// What it cannot know: things above kLow below the horizon (drops, dirt and displays high in the
 /// image) rest like far scenery and are not learned; nor is anything while the camera looks
@@ -37,9 +38,10 @@ class CarMask {
   /// Takes the place of a track that must_move() and rests: what lies below it is not used for a
   /// while. The reflections in a bonnet move, and only its dust tells that they are no road.
   void suspect(const Eigen::Vector2d& u);
-  /// Whether this place of the image is not known to be the car, nor suspected. [px of level 0]
+  /// Whether this place of the image is not known to be the car or black, nor suspected. [px of
+  /// level 0]
   [[nodiscard]] bool usable(const Eigen::Vector2d& u) const;
-  /// Black where the car is, white elsewhere; empty while nothing was learned.
+  /// Black where the car is, or nothing at all; white elsewhere; empty while nothing was learned.
   [[nodiscard]] GreyImage picture() const;
   /// Whether the last decision found more car than an image can lose, and dropped it.
   [[nodiscard]] bool is_refused() const { return refused_; }
@@ -64,6 +66,7 @@ class CarMask {
   };
   [[nodiscard]] std::size_t stretch_of(double column) const;
   [[nodiscard]] bool is_car(const Eigen::Vector2d& u) const;
+  [[nodiscard]] bool is_fixed(const Eigen::Vector2d& u) const;
   [[nodiscard]] bool is_suspected(const Eigen::Vector2d& u) const;
   /// Whether the car goes nearly straight, so that what passes flows along r of StaticStructure.
   [[nodiscard]] static bool is_straight(const Travel& travel, const MotionHint& hint);
@@ -80,6 +83,7 @@ class CarMask {
   std::optional<Outlook> outlook_;    ///< of the image given last
   bool shows_travel_ = false;
   StaticStructure structure_;
+  DarkRim rim_;
   std::vector<Suspicion> suspicions_;
   long frame_ = 0;
   int undecided_ = 0;          ///< frames added since the last decision

@@ -5,6 +5,8 @@
 #include "standing.h"
 #include "with_quality.h"
 
+#include "oneac/base/mask.h"
+
 #include <Eigen/LU>
 
 #include <algorithm>

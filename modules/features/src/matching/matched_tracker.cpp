@@ -3,6 +3,7 @@
 #include "patch/patch_flow.h"
 #include "with_quality.h"
 
+#include "oneac/base/mask.h"
 #include "oneac/base/median.h"
 
 #include <algorithm>

@@ -240,10 +240,10 @@ RawlogSource::Impl::Picture RawlogSource::Impl::decoded(const StoredImage& image
   Picture picture;
   GreyRange drive = grey_range_;  // of its own: several threads load
   GreyImage stored = image.grey(in_log(ticket_name), drive);
-  if (!mask.empty()) {
-    picture.mask = camera_.rectify(read_mask(mask, stored.view(), ticket_name), mask.string());
-  }
+  GreyImage stored_mask;
+  if (!mask.empty()) stored_mask = read_mask(mask, stored.view(), ticket_name);
   picture.image = camera_.rectify(std::move(stored), image.name(in_log(ticket_name)));
+  picture.mask = camera_.unused(picture.image, std::move(stored_mask), mask.string());
   return picture;
 }
 

@@ -17,6 +17,9 @@ inline constexpr std::uint8_t kMaskUses = 128;
 /// The share of its pixels that a mask leaves out. [-]; 0 without a mask
 [[nodiscard]] double share_left_out(const ImageView& mask);
 
+/// Dark where either is; an empty picture is dark nowhere. @pre the same size
+[[nodiscard]] GreyImage darker(GreyImage a, const GreyImage& b);
+
 /// For messages about such a mask.
 inline constexpr const char* kMaskCure = "write 255 where pixels are used and 0 where not";
 

@@ -70,6 +70,11 @@ class CameraReader {
   /// @throws InputError naming the image when its size is not the calibration's (a given one is
   ///         scaled where only the size differs) or changes
   [[nodiscard]] GreyImage rectify(GreyImage grey, const std::string& name) const;
+  /// What is not used of a rectified image, dark: what its mask says, of the image as it is stored,
+  /// and the rim that undistortion leaves black. Empty where all is used.
+  /// @param mask  empty: none
+  [[nodiscard]] GreyImage unused(const GreyImage& rectified, GreyImage mask,
+                                 const std::string& name) const;
   /// One line when the given calibration is for images of another size and the same aspect, and was
   /// scaled to these; else "". Complete once an image was rectified. Thread-safe.
   [[nodiscard]] std::string scaling_note() const;
