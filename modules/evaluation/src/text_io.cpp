@@ -1,6 +1,7 @@
 #include "text_io.h"
 
 #include "oneac/base/error.h"
+#include "oneac/base/finite_number.h"
 #include "oneac/base/input_file.h"
 
 #include <algorithm>
@@ -72,13 +73,8 @@ std::vector<std::string_view> split_at_commas(std::string_view line) {
 }
 
 std::optional<double> parse_finite(std::string_view field) {
-  if (!field.empty() && field.front() == '+') field.remove_prefix(1);  // from_chars refuses it
-  double value = 0.0;
-  const char* end = field.data() + field.size();
-  const auto result = std::from_chars(field.data(), end, value);
-  if (result.ec != std::errc() || result.ptr != end) return std::nullopt;
-  if (!(std::abs(value) < kNumberBound)) return std::nullopt;  // NaN too
-  return value;
+  const auto value = finite_number(field);
+  return value && std::abs(*value) < kNumberBound ? value : std::nullopt;
 }
 
 }  // namespace oneac

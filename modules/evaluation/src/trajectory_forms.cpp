@@ -2,6 +2,7 @@
 #include "text_io.h"
 
 #include "oneac/base/error.h"
+#include "oneac/base/finite_number.h"
 #include "oneac/base/number_text.h"
 #include "oneac/evaluation/statistics.h"
 #include "oneac/evaluation/trajectory_io.h"
@@ -31,12 +32,8 @@ constexpr double kMicrosecond = 1e-6;
 constexpr double kTimeBound = 1e19;  // nanoseconds since 1970 have 1.8e18
 
 std::optional<double> parse_time(std::string_view field) {
-  double value = 0.0;
-  const char* end = field.data() + field.size();
-  const auto result = std::from_chars(field.data(), end, value);
-  if (result.ec != std::errc() || result.ptr != end) return std::nullopt;
-  if (!(std::abs(value) < kTimeBound)) return std::nullopt;
-  return value;
+  const auto value = finite_number(field);
+  return value && std::abs(*value) < kTimeBound ? value : std::nullopt;
 }
 
 bool has_commas(std::string_view line) {

@@ -148,6 +148,32 @@ TEST_F(ImportKitti, WritesTheMountIntoTheLog) {
   EXPECT_NE(complaint().find("--mount-pitch"), std::string::npos);
 }
 
+TEST_F(ImportKitti, ReplacesPosesOnlyWithTheLogThatTheyLieBeside) {
+  make_sequence();
+  const fs::path poses = import_kitti(options_).poses;
+  ASSERT_TRUE(fs::exists(poses));
+  EXPECT_EQ(import_kitti(options_).poses, poses) << "log and poses together are of an import";
+  fs::remove(options_.log);
+  write_text(poses, "somebody's own");
+  EXPECT_NE(complaint().find(poses.filename().string() + ": is there without its log"),
+            std::string::npos)
+      << complaint();
+  EXPECT_FALSE(fs::exists(options_.log));
+  EXPECT_EQ(fs::file_size(poses), std::string("somebody's own").size());
+}
+
+TEST_F(ImportKitti, SaysThatTimesHaveADecimalPoint) {
+  make_sequence();
+  write_text(options_.source / "times.txt", "0,0\n0,1\n0,2\n");
+  EXPECT_NE(complaint().find("write a decimal point where the numbers have a comma"),
+            std::string::npos)
+      << complaint();
+  write_text(options_.source / "times.txt", "0,0\n0,9\n1,8\n");
+  EXPECT_NE(complaint().find("write a decimal point where the numbers have a comma"),
+            std::string::npos)
+      << complaint();
+}
+
 TEST_F(ImportKitti, OrdersImagesByTheirNumbersAndSaysSo) {
   make_sequence(0, 0);
   for (const char* name : {"1.png", "2.png", "9.png", "10.png", "11.png", "100.png"}) {

@@ -1,10 +1,10 @@
 #include "calibration/calibration_numbers.h"
 
 #include "oneac/base/error.h"
+#include "oneac/base/finite_number.h"
 
 #include <algorithm>
 #include <cctype>
-#include <charconv>
 #include <cmath>
 #include <set>
 
@@ -47,15 +47,12 @@ std::vector<double> CalibrationPlace::numbers(const std::string& key,
   constexpr std::size_t kShown = 40;
   std::vector<double> values;
   for (const std::string& word : words) {
-    const char* begin = word.data() + (!word.empty() && word.front() == '+' ? 1 : 0);
-    const char* end = word.data() + word.size();
-    double value = 0.0;
-    const auto result = std::from_chars(begin, end, value);
-    if (result.ec != std::errc() || result.ptr != end || !std::isfinite(value)) {
+    const auto value = finite_number(word);
+    if (!value) {
       fail(key + " holds '" + word.substr(0, kShown) + "', which is not a number",
            "write it as the tool does, or calibrate again");
     }
-    values.push_back(value);
+    values.push_back(*value);
   }
   return values;
 }

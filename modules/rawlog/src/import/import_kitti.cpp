@@ -155,10 +155,12 @@ std::string poses_of(const fs::path& source, const Sequence& sequence, ImportRep
   return text;
 }
 
-/// Where they are written, which can be a file. @throws InputError
+/// Where they are written, which can be a file. Those beside an earlier log are replaced with it;
+/// others are somebody's own. @throws InputError
 fs::path place_of_poses(const fs::path& log) {
   fs::path file = log.parent_path() / (log.stem().string() + "_poses.txt");
-  const std::string fault = fault_of_place(file);
+  std::string fault = fault_of_place(file);
+  if (fault.empty() && fs::exists(file) && !fs::exists(log)) fault = "is there without its log";
   if (fault.empty()) return file;
   throw InputError(file.string(), fault + ", where the poses are to be written",
                    "take it away, or give another name with -o");
@@ -211,11 +213,9 @@ ImportReport import_kitti(const KittiImport& options) {
   drive.right = find_right(options, sequence, report);
   require_writable_folder(options.log.has_parent_path() ? options.log.parent_path() : ".");
   const std::string poses = poses_of(options.source, sequence, report);
-  const fs::path place = place_of_poses(options.log);
+  if (!poses.empty()) report.poses = place_of_poses(options.log);
   write_drive(drive, options.log, options.copy_images, report);  // not where poses are none
-  if (poses.empty()) return report;
-  write_file_atomically(place, poses);
-  report.poses = place;
+  if (!poses.empty()) write_file_atomically(report.poses, poses);
   return report;
 }
 

@@ -1,10 +1,9 @@
 #include "import/number_table.h"
 
 #include "oneac/base/error.h"
+#include "oneac/base/finite_number.h"
 #include "oneac/base/input_file.h"
 
-#include <charconv>
-#include <cmath>
 #include <fstream>
 #include <string>
 #include <string_view>
@@ -25,14 +24,9 @@ struct Line {
 };
 
 double parse(std::string_view word, const Line& line) {
-  double value = 0.0;
-  const char* begin = word.data() + (word.front() == '+' ? 1 : 0);
-  const char* end = word.data() + word.size();
-  const auto result = std::from_chars(begin, end, value);
-  if (result.ec != std::errc() || result.ptr != end || !std::isfinite(value)) {
-    line.fail("'" + std::string(word) + "' is not a number");
-  }
-  return value;
+  const auto value = finite_number(word);
+  if (!value) line.fail("'" + std::string(word) + "' is not a number");
+  return *value;
 }
 
 std::vector<double> parse_row(std::string_view text, const Line& line) {

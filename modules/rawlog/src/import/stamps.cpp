@@ -66,6 +66,15 @@ constexpr const char* kTimesCure =
     "give seconds, or ms, us or ns of a drive with an image every 4 ms to 2 s, or take the file "
     "away for 10 Hz";
 
+constexpr const char* kSequenceCure =
+    "give the times.txt of this sequence, or take it away for 10 Hz";
+
+/// Two numbers in each row of times are most likely one with a comma in it.
+std::string times_cure(const std::vector<std::vector<double>>& table, const char* otherwise) {
+  if (table.front().size() != 2) return otherwise;
+  return std::string("write a decimal point where the numbers have a comma, or ") + otherwise;
+}
+
 /// The unit that makes the median spacing one of images; seconds for a single row.
 TimeUnit unit_by_spacing(const std::vector<std::vector<double>>& table, const fs::path& file) {
   std::vector<double> spacings;
@@ -82,7 +91,7 @@ TimeUnit unit_by_spacing(const std::vector<std::vector<double>>& table, const fs
                    "rows are " + exact_text(median) +
                        " apart, which is no spacing of images in s, "
                        "ms, us or ns",
-                   kTimesCure);
+                   times_cure(table, kTimesCure));
 }
 
 /// @throws InputError naming the row of a time that is none since 1970 or the start
@@ -162,8 +171,7 @@ std::vector<double> stamps_from_table(const fs::path& file, const std::vector<fs
   const auto table = read_number_table(file, 1);
   const auto rows = rows_of(images, table.size());
   if (rows.empty()) {
-    throw InputError(file.string(), counts(table.size(), images.size()),
-                     "give the times.txt of this sequence, or take it away for 10 Hz");
+    throw InputError(file.string(), counts(table.size(), images.size()), kSequenceCure);
   }
   const TimeUnit unit = unit_of(table, file);
   if (unit.seconds != 1.0) report.notes.push_back(std::string("times.txt is in ") + unit.name);
@@ -172,7 +180,7 @@ std::vector<double> stamps_from_table(const fs::path& file, const std::vector<fs
     times.push_back(epoch + unit.seconds * table[row][0]);
     if (times.size() < 2 || times.back() > times[times.size() - 2]) continue;
     throw InputError(file.string() + ": row " + std::to_string(row + 1), "time does not increase",
-                     "give the times.txt of this sequence, or take it away for 10 Hz");
+                     times_cure(table, kSequenceCure));
   }
   return times;
 }

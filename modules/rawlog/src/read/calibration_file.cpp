@@ -34,11 +34,6 @@ std::string without_comment(const std::string& line) {
   return !text.empty() && text.front() == ';' ? "" : text;
 }
 
-std::optional<double> number(std::string_view word) {
-  if (!word.empty() && word.front() == '+') word.remove_prefix(1);
-  return finite_number(word);
-}
-
 // Numbers of "[1 2; 3, 4]"; empty when something else is among them.
 std::vector<double> numbers(std::string text) {
   std::replace_if(
@@ -47,7 +42,7 @@ std::vector<double> numbers(std::string text) {
   std::vector<double> values;
   for (std::size_t at = text.find_first_not_of(kSpaces); at != std::string::npos;) {
     const auto end = text.find_first_of(kSpaces, at);
-    const auto value = number(text.substr(at, end - at));
+    const auto value = finite_number(text.substr(at, end - at));
     if (!value) return {};
     values.push_back(*value);
     at = text.find_first_not_of(kSpaces, end);
