@@ -81,6 +81,12 @@ Matrix6 covariance_of(const LoopKeyframe& keyframe) {
   return known_or_anything(keyframe.covariance);
 }
 
+Matrix63 shared_changes(const LoopKeyframe& keyframe) {
+  Matrix63 changes = Matrix63::Zero();
+  changes.bottomRows<3>() = keyframe.shared_rotation.asDiagonal();
+  return changes;
+}
+
 UncertainPose inverse(const UncertainPose& a) {
   return {a.T.inverse(), carried(a.covariance, a.T)};
 }
@@ -106,9 +112,11 @@ void Chain::add(const LoopKeyframe& keyframe) {
   const bool goes_on =
       !first && keyframe.log == stretches_.back().log && is_known(keyframe.covariance);
   Matrix6 sum = Matrix6::Zero();
+  Matrix63 shared = Matrix63::Zero();
   double driven = first ? 0.0 : driven_.back() + kLeap_m;
   if (goes_on) {
     sum = sums_.back() + carried(keyframe.covariance, here);
+    shared = shared_.back() + adjoint(here) * shared_changes(keyframe);
     driven = driven_.back() + (here.translation() - poses_.back().translation()).norm();
   }
   if (goes_on) {
@@ -122,6 +130,7 @@ void Chain::add(const LoopKeyframe& keyframe) {
   places_.push_back(keyframe.place);
   poses_.push_back(here);
   sums_.push_back(sum);
+  shared_.push_back(shared);
   driven_.push_back(driven);
   scale_sigma_.push_back(keyframe.scale_sigma);
   const double begin = knots_.empty() ? 0.0 : driven_[knots_.back()];
@@ -192,6 +201,8 @@ UncertainPose Chain::between(std::size_t a, std::size_t b) const {
     return pose;
   }
   pose.covariance = carried(sums_[b] - sums_[a], poses_[b].inverse());
+  const Matrix63 shared = adjoint(poses_[b].inverse()) * (shared_[b] - shared_[a]);
+  pose.covariance += shared * shared.transpose();
   const Eigen::Matrix3d R = poses_[b].linear();
   pose.covariance.topLeftCorner<3, 3>() += R.transpose() * scale_covariance(a, b) * R;
   return pose;

@@ -15,6 +15,7 @@ namespace oneac::internal {
 
 using Matrix6 = Eigen::Matrix<double, 6, 6>;
 using Vector6 = Eigen::Matrix<double, 6, 1>;
+using Matrix63 = Eigen::Matrix<double, 6, 3>;
 
 /// T_1_2 with the covariance of (translation, rotation vector) of a change on the right.
 struct UncertainPose {
@@ -31,6 +32,9 @@ struct UncertainPose {
 [[nodiscard]] UncertainPose of_loop(const LoopConstraint& loop);
 /// Of the step to a keyframe; of one that nothing is known of, that of anywhere.
 [[nodiscard]] Matrix6 covariance_of(const LoopKeyframe& keyframe);
+/// What the shared errors of rotation of the step to a keyframe change on its right, one column
+/// each.
+[[nodiscard]] Matrix63 shared_changes(const LoopKeyframe& keyframe);
 /// Of (translation, rotation vector) on the right: through T, from its right to its left side.
 [[nodiscard]] Matrix6 adjoint(const Eigen::Isometry3d& T);
 
@@ -77,6 +81,7 @@ class Chain {
   std::vector<double> driven_;
   std::vector<double> scale_sigma_;
   std::vector<Matrix6> sums_;       ///< of a part's steps, carried to the first camera's frame
+  std::vector<Matrix63> shared_;    ///< likewise of 1σ of what all steps share, one per axis
   std::vector<std::size_t> knots_;  ///< keyframes where stretches end
 };
 

@@ -13,6 +13,7 @@ namespace oneac {
 namespace {
 
 using internal::Matrix6;
+using internal::Matrix63;
 using internal::UncertainPose;
 using internal::Vector6;
 
@@ -26,6 +27,7 @@ struct Edge {
   UncertainPose pose;
   double length_of_all = 0.0, length_of_stretch = 0.0;
   std::size_t stretch = 0;
+  Matrix63 rotations = Matrix63::Zero();  ///< see shared_changes()
 };
 
 /// The steps, with the stretch that each is of, counted over all logs.
@@ -48,6 +50,7 @@ std::vector<Edge> steps_of(const std::vector<LoopKeyframe>& keyframes,
     const double sigma = keyframe.scale_sigma;
     edge.length_of_all = std::min(sigma, shared_length);
     edge.length_of_stretch = std::sqrt(sigma * sigma - edge.length_of_all * edge.length_of_all);
+    edge.rotations = internal::shared_changes(keyframe);
     edges.push_back(edge);
   }
   return edges;
@@ -146,6 +149,9 @@ void visit_shared_modes(const Equations& equations, const internal::SelectedInve
   const auto mode = [&](auto&& error) { visit(inverse.times(equations.right_side(error))); };
   mode([](const Edge& edge) { return longer(edge.pose.T, edge.length_of_all); });
   mode([&](const Edge& edge) { return turned_more(edge.pose.T, shared.turn); });
+  for (int axis = 0; axis < 3; ++axis) {
+    mode([&](const Edge& edge) -> Vector6 { return edge.rotations.col(axis); });
+  }
   std::size_t stretches = 0;
   for (const Edge& edge : edges) stretches = std::max(stretches, edge.stretch + 1);
   for (std::size_t stretch = 0; stretch < stretches; ++stretch) {

@@ -58,6 +58,30 @@ TEST(Chain, CovarianceIsThatOfTheStepsItAddsUp) {
   for (int i = 0; i < 6; ++i) EXPECT_NEAR(seen(i, i) / told(i, i), 1.0, 0.12) << i;
 }
 
+TEST(Chain, WhatAllStepsShareLeadsADriveOffLikeAScrew) {
+  constexpr double kShared = 0.02 * kDegree;
+  const auto truth = test::square_drive(40.0, 5);
+  auto keyframes = test::drifted(truth, 0.0);
+  for (LoopKeyframe& keyframe : keyframes) keyframe.scale_sigma = 0.0;
+  const std::size_t first = 7, last = truth.size() - 5;
+  const Matrix6 alone = test::chain_of(keyframes).between(first, last).covariance;
+  for (LoopKeyframe& keyframe : keyframes) keyframe.shared_rotation.setConstant(kShared);
+  const Matrix6 told = test::chain_of(keyframes).between(first, last).covariance - alone;
+  Matrix6 seen = Matrix6::Zero();
+  for (int axis = 0; axis < 3; ++axis) {
+    Eigen::Isometry3d error = Eigen::Isometry3d::Identity();
+    error.linear() = rotation_from_vector(1e-3 * kShared * Eigen::Vector3d::Unit(axis));
+    Eigen::Isometry3d T = Eigen::Isometry3d::Identity();
+    for (std::size_t i = first + 1; i <= last; ++i) {
+      T = T * truth[i - 1].inverse() * truth[i] * error;
+    }
+    const Vector6 e = 1e3 * small_motion((truth[first].inverse() * truth[last]).inverse() * T);
+    seen += e * e.transpose();
+  }
+  EXPECT_LT((told - seen).norm(), 0.02 * seen.norm());
+  EXPECT_GT(told(1, 1), 4.0 * alone(1, 1)) << "upwards it counts most";
+}
+
 TEST(Chain, LengthsOfAStretchAreWrongByOneFactor) {
   const auto truth = straight_drive(30, 2.0);
   const UncertainPose way = test::chain_of(test::drifted(truth, 0.0)).between(0, 29);

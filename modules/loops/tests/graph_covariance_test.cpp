@@ -22,6 +22,7 @@ struct Errors {
   double step = 1.0;           ///< times test::step_covariance() and that of loops
   double length_of_all = 0.0;  ///< relative 1σ
   double turn_of_all = 0.0;
+  double rotation_of_all = 0.0;  ///< [rad] 1σ, about each axis of the camera in each step
 };
 
 Eigen::Isometry3d small(const Vector6& change) {
@@ -42,18 +43,24 @@ struct Drive {
     std::normal_distribution<double> normal;
     const double longer = errors.length_of_all * normal(random);
     const double turned = errors.turn_of_all * normal(random);
+    Eigen::Vector3d rotated = Eigen::Vector3d::Zero();
+    if (errors.rotation_of_all > 0.0) {
+      for (double& axis : rotated) axis = errors.rotation_of_all * normal(random);
+    }
     keyframes = test::drifted(truth, 0.0);
     for (std::size_t i = 1; i < truth.size(); ++i) {
       Vector6 change;
       for (int k = 0; k < 6; ++k) {
         change[k] = errors.step * std::sqrt(keyframes[i].covariance(k, k)) * normal(random);
       }
+      change.tail<3>() += rotated;
       Eigen::Isometry3d step = truth[i - 1].inverse() * truth[i];
       step.translation() *= 1.0 + longer;
       const Eigen::AngleAxisd turn(step.linear());
       step.linear() = Eigen::AngleAxisd((1.0 + turned) * turn.angle(), turn.axis()).matrix();
       keyframes[i].T_first_cam = keyframes[i - 1].T_first_cam * step * small(change);
       keyframes[i].scale_sigma = errors.length_of_all;
+      keyframes[i].shared_rotation.setConstant(errors.rotation_of_all);
     }
     for (std::size_t i = 4; i < kLap; i += 6) {
       LoopConstraint loop = test::loop_between(truth, i, i + kLap);
@@ -114,6 +121,12 @@ TEST(GraphCovariance, CarriesWhatAllStepsShareThroughTheLoops) {
   // Larger ones, and the loops are taken for false: their steps do not know of it.
   const Spread turned = spread_of(opposite, {1.0, 0.0, 0.004});
   EXPECT_NEAR(turned.position / turned.position_believed, 1.0, 0.3);
+}
+
+TEST(GraphCovariance, CarriesARotationThatAllStepsShareThroughTheLoops) {
+  const Spread rotated = spread_of(kLap / 2, {1.0, 0.0, 0.0, 0.0004});
+  EXPECT_NEAR(rotated.position / rotated.position_believed, 1.0, 0.3);
+  EXPECT_GT(rotated.position, 1.1 * spread_of(kLap / 2, {}).position) << "the test is blunt";
 }
 
 TEST(GraphCovariance, LoopsMakeSurer) {

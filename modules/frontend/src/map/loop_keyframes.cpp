@@ -1,5 +1,7 @@
 #include "oneac/frontend/loop_keyframes.h"
 
+#include "oneac/frontend/trajectory_uncertainty.h"
+
 namespace oneac {
 namespace {
 
@@ -13,6 +15,16 @@ OdometryStep to_odometry_step(const StepResult& step) {
   out.covariance.bottomRows<3>() *= factor;
   out.covariance.bottomRightCorner<3, 3>() += out.T_2_1.t * out.T_2_1.t.transpose();
   return out;
+}
+
+/// Of all steps from one keyframe to the next, whose axes hardly differ.
+Eigen::Vector3d shared_rotation(const Keyframe& before, const Keyframe& keyframe,
+                                const StepTo& step_to) {
+  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+  for (std::size_t i = before.frame + 1; i <= keyframe.frame; ++i) {
+    if (const std::optional<StepResult> step = step_to(i)) sum += shared_rotation_sigma(*step);
+  }
+  return sum;
 }
 
 }  // namespace
@@ -41,7 +53,9 @@ LoopKeyframe to_loop_keyframe(const Keyframe& keyframe, const Keyframe* before,
   // A map that has metres may have had none here: a length that is held is no measurement.
   out.metric = keyframe.metric && (!step || step->metric);
   out.scale_sigma = step && step->metric ? step->length_sigma : shared_sigma;
-  if (before != nullptr) out.covariance = covariance_between(*before, keyframe, step_to);
+  if (before == nullptr) return out;
+  out.covariance = covariance_between(*before, keyframe, step_to);
+  out.shared_rotation = shared_rotation(*before, keyframe, step_to);
   return out;
 }
 

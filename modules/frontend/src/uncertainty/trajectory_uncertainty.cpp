@@ -52,9 +52,9 @@ void PoseUncertainty::add_step(const StepResult& step, const Eigen::Isometry3d& 
   const Eigen::AngleAxisd turn(now.linear() * before_->linear().transpose());
   turned_ += turn_scale_ * turn.angle() * turn.axis();
   by_turns_ += turned_.cross(d);
+  const Eigen::Vector3d shared = shared_rotation_sigma(step);
   for (int axis = 0; axis < 3; ++axis) {
-    const double sigma = std::sqrt(std::max(step.covariance(axis, axis), 0.0));
-    rotated_.col(axis) += kSharedRotation * sigma * now.linear().col(axis);
+    rotated_.col(axis) += shared[axis] * now.linear().col(axis);
     by_rotation_.col(axis) += rotated_.col(axis).cross(d);
   }
   if (step.pose.t.norm() > 0.0) add_length(step, d);
@@ -94,6 +94,10 @@ void PoseUncertainty::add_length(const StepResult& step, const Eigen::Vector3d& 
   lengths_ +=
       rest * with_length_.transpose() + with_length_ * rest.transpose() + rest * rest.transpose();
   with_length_ += rest;
+}
+
+Eigen::Vector3d shared_rotation_sigma(const StepResult& step) {
+  return kSharedRotation * step.covariance.diagonal().head<3>().cwiseMax(0.0).cwiseSqrt();
 }
 
 double shared_turn_sigma(double camera_doubt) {

@@ -30,6 +30,9 @@ struct LoopKeyframe {
   /// see covariance_of_steps(). Zero where nothing is known, and for the first of a log: then a
   /// part of the way begins, which only loops can join to the others.
   Eigen::Matrix<double, 6, 6> covariance = Eigen::Matrix<double, 6, 6>::Zero();
+  /// [rad] 1σ of what the turn of T_before_this, about the axes of this camera, has wrong as all
+  /// steps of a drive have; beside `covariance`.
+  Eigen::Vector3d shared_rotation = Eigen::Vector3d::Zero();
   double scale_sigma = 0.0;       ///< relative 1σ of lengths here, shared by neighbours
   std::optional<GpsPlace> place;  ///< only ever refuses a loop
 };
