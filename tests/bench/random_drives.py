@@ -2,6 +2,7 @@
 """Simulated drives drawn at random: does what is called metric lie within its sigma?
 
 Usage: random_drives.py ONEAC FOLDER [--first N] [--count N] [--source stereo|gps|wheels]
+                        [--road slabs|wet]
 
 Every number is a drive: its camera, mount, road, light, traffic and speed follow from it. Prints
 per drive what nasty_drives.py prints, the flags of `oneac simulate`, and *** where a metric pair
@@ -78,11 +79,16 @@ def sensors(r, source):
     return []
 
 
-def drive_flags(number, source=None):
+def drive_flags(number, source=None, road=None):
     """Of `oneac simulate`."""
     r = random.Random(number)
     flags = ['--seed', number, '--frames', r.choice([80, 120, 160])] + camera(r) + scene(r)
     flags += sensors(r, source)
+    if road:
+        if '--road' in flags:
+            flags[flags.index('--road') + 1] = road
+        else:
+            flags += ['--road', road]
     return [str(flag) for flag in flags]
 
 
@@ -109,11 +115,12 @@ def main():
     parser.add_argument('--count', type=int, default=60)
     parser.add_argument('--source', choices=['stereo', 'gps', 'wheels'],
                         help='of the metres; without it the camera\'s height')
+    parser.add_argument('--road', choices=['slabs', 'wet'], help='of every drive')
     asked = parser.parse_args()
     total = dict(metric=0, within_2=0, beyond_5=0, pairs=0, wrong=0)
     for number in range(asked.first, asked.first + asked.count):
-        flags = drive_flags(number, asked.source)
-        name = f"{number}{'-' + asked.source if asked.source else ''}"
+        flags = drive_flags(number, asked.source, asked.road)
+        name = '-'.join([str(number), *filter(None, (asked.source, asked.road))])
         drive, out = asked.folder / name, asked.folder / f'{name}-run'
         if not (drive / 'poses.txt').exists():
             call(asked.oneac, 'simulate', '-o', drive, '--no-progress', *flags)

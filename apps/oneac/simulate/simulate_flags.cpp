@@ -107,7 +107,9 @@ void add_scene_flags(CLI::App& verb, SimulationOptions& options) {
   add_kind<RoadSurface>(verb, "--road", options.road, "What the road shows",
                         {{"textured", RoadSurface::kTextured},
                          {"dark", RoadSurface::kDark},
-                         {"dashes", RoadSurface::kDashes}});
+                         {"dashes", RoadSurface::kDashes},
+                         {"slabs", RoadSurface::kSlabs},
+                         {"wet", RoadSurface::kWet}});
   add_kind<Traffic>(verb, "--traffic", options.traffic,
                     "What moves; overtaking, oncoming and truck on straight and stop-and-go only",
                     {{"none", Traffic::kNone},

@@ -81,9 +81,10 @@ void paint_zebra(RandomNumbers& random, DecalCanvas& road, double x) {
   }
 }
 
+constexpr double kSlab = 0.6;  // [m]
+constexpr double kJoint = 0.03;
+
 void pave(RandomNumbers& random, DecalCanvas& road, double from_y, double to_y, double length) {
-  constexpr double kSlab = 0.6;  // [m]
-  constexpr double kJoint = 0.03;
   double x = 0.0;
   while (x < length) {
     double y = from_y;
@@ -93,6 +94,15 @@ void pave(RandomNumbers& random, DecalCanvas& road, double from_y, double to_y, 
     }
     x += kSlab;
   }
+}
+
+/// Joints of slabs that all look alike.
+void paint_joints(DecalCanvas& road, double from_y, double to_y, double length) {
+  constexpr double kDark = -40.0;
+  for (double x = 0.0; x < length; x += kSlab) {
+    road.rectangle({x, from_y, kJoint, to_y - from_y, kDark});
+  }
+  for (double y = from_y; y < to_y; y += kSlab) road.rectangle({0.0, y, length, kJoint, kDark});
 }
 
 void repair(RandomNumbers& random, DecalCanvas& road, double length) {
@@ -125,11 +135,15 @@ void repair(RandomNumbers& random, DecalCanvas& road, double length) {
 RoadLook road_look(RoadSurface road) {
   switch (road) {
     case RoadSurface::kDark:
-      return {42.0F, 0.22, 0.25, true, false};
+      return {42.0F, 0.22, 0.25, true, false, false, false};
     case RoadSurface::kDashes:
-      return {105.0F, 0.1, 1.0, false, false};
+      return {105.0F, 0.1, 1.0, false, false, false, false};
+    case RoadSurface::kSlabs:
+      return {105.0F, 0.1, 0.0, true, false, true, false};
+    case RoadSurface::kWet:
+      return {60.0F, 0.5, 0.6, true, true, false, true};
     default:
-      return {105.0F, 1.0, 1.0, true, true};
+      return {105.0F, 1.0, 1.0, true, true, false, false};
   }
 }
 
@@ -153,6 +167,14 @@ Texture paint_road_tone(const RoadLook& look, std::uint64_t seed) {
   return {canvas, kToneTexel};
 }
 
+Texture paint_puddles(std::uint64_t seed) {
+  RandomNumbers random(seed ^ 0x776574ULL);
+  constexpr float kFilm = 90.0F;
+  Canvas canvas(kToneSide, kToneSide, kFilm);
+  canvas.dead_leaves(random, {4.0, 60.0, 0.3, 90.0, 0.0});
+  return {canvas, kToneTexel};
+}
+
 RoadDecal paint_decal(const RoadLook& look, const Leg& leg, std::uint64_t seed) {
   RandomNumbers random(seed);
   const Eigen::Vector2d low(0.0, -6.4);
@@ -163,6 +185,7 @@ RoadDecal paint_decal(const RoadLook& look, const Leg& leg, std::uint64_t seed) 
     pave(random, road, 8.0, high.y() - 0.2, leg.length_m);
     repair(random, road, leg.length_m);
   }
+  if (look.slabs) paint_joints(road, low.y(), high.y(), leg.length_m);
   paint_lines(road, leg.length_m, look.paint * kPaint);
   if (look.details) paint_zebra(random, road, leg.length_m - 5.0);
   return {low, high, {road.texels(), kDecalTexel}};

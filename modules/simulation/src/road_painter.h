@@ -24,6 +24,8 @@ struct RoadLook {
   double paint;      ///< the same of the markings
   bool grain;        ///< stones, cracks, speckle
   bool details;      ///< paving, repairs, zebra crossings
+  bool slabs;        ///< the whole road is paved, each slab as the other
+  bool wet;          ///< it mirrors
 };
 [[nodiscard]] RoadLook road_look(RoadSurface road);
 
@@ -32,6 +34,8 @@ struct RoadLook {
 /// Slow changes of tone, 37 m before they repeat: laid askew over the asphalt, so that no two
 /// places of the road look alike.
 [[nodiscard]] Texture paint_road_tone(const RoadLook& look, std::uint64_t seed);
+/// How much of the light that falls on the road its water may mirror, from 0 to 255.
+[[nodiscard]] Texture paint_puddles(std::uint64_t seed);
 /// Lines, zebra crossing, patches, manholes, cracks, paving slabs of one street.
 [[nodiscard]] RoadDecal paint_decal(const RoadLook& look, const Leg& leg, std::uint64_t seed);
 

@@ -100,6 +100,17 @@ Shader::Shader(const Route& route, const std::vector<Box>& boxes, const Simulati
     box_textures_.push_back(paint_box(boxes[i], own_seed(2, i), own_seed(relit ? 4 : 3, i)));
   }
   if (options.scenery == Scenery::kFar) clouds_ = paint_clouds(options.seed);
+  if (look.wet) puddles_ = paint_puddles(options.seed);
+}
+
+float Shader::mirrored(const RayFan& fan, double u, double v) const {
+  if (!puddles_) return 0.0F;
+  constexpr float kHeadOn = 0.02F;  // of water, by Schlick's approximation of Fresnel's equations
+  const Eigen::Vector3d ray = fan.ray(u, v);
+  const auto slant = static_cast<float>(std::abs(ray.z()) / ray.norm());
+  const float fresnel = kHeadOn + (1.0F - kHeadOn) * std::pow(1.0F - slant, 5.0F);
+  const float wet = puddles_->sample(footprint(fan, Face{}, u, v)) / 255.0F;
+  return fresnel * std::clamp(wet, 0.0F, 1.0F);
 }
 
 float Shader::face(const RayFan& fan, const Face& face, const std::vector<Box>& boxes, double u,

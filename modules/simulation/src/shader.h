@@ -21,6 +21,10 @@ class Shader {
   /// @param boxes  as they stand now: the ones given, moved
   [[nodiscard]] float face(const RayFan& fan, const Face& face, const std::vector<Box>& boxes,
                            double u, double v) const;
+  /// The same of the ground where it is wet: the share of the light from above that it mirrors,
+  /// [0, 1]; 0 of a dry road. @pre the ground is in front there
+  [[nodiscard]] float mirrored(const RayFan& fan, double u, double v) const;
+  [[nodiscard]] bool mirrors() const { return puddles_.has_value(); }
   /// The same of the sky: plain, or clouds.
   [[nodiscard]] float sky(const RayFan& fan, double u, double v) const;
 
@@ -35,6 +39,7 @@ class Shader {
   Texture asphalt_;
   Texture tone_;
   std::optional<Texture> clouds_;
+  std::optional<Texture> puddles_;
 };
 
 }  // namespace oneac::simulation

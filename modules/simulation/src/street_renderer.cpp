@@ -12,11 +12,18 @@ namespace {
 
 constexpr int kRowsAtOnce = 4;  // of a rolling shutter: below a quarter of a millisecond
 
+/// The picture, sample by sample; where the road mirrors, with another one upside down in it.
 class PixelPainter {
  public:
   PixelPainter(const Shader& shader, const RayFan& fan, const std::vector<Box>& boxes,
-               const std::vector<Face>& faces, const FaceRasteriser& visible)
-      : shader_(shader), fan_(fan), boxes_(boxes), faces_(faces), visible_(visible) {}
+               const std::vector<Face>& faces, const FaceRasteriser& visible,
+               const PixelPainter* mirror = nullptr)
+      : shader_(shader),
+        fan_(fan),
+        boxes_(boxes),
+        faces_(faces),
+        visible_(visible),
+        mirror_(mirror) {}
 
   [[nodiscard]] float pixel(int u, int v) const {
     const std::array<std::uint16_t, 4> ids{id(u, v, 0), id(u, v, 1), id(u, v, 2), id(u, v, 3)};
@@ -35,7 +42,11 @@ class PixelPainter {
   }
   [[nodiscard]] float look(std::uint16_t id, double u, double v) const {
     if (id == FaceRasteriser::kSky) return shader_.sky(fan_, u, v);
-    return shader_.face(fan_, faces_[id], boxes_, u, v);
+    const float own = shader_.face(fan_, faces_[id], boxes_, u, v);
+    if (mirror_ == nullptr || faces_[id].box >= 0) return own;
+    const float share = shader_.mirrored(fan_, u, v);
+    const std::uint16_t seen = mirror_->id(static_cast<int>(u), static_cast<int>(v), 0);
+    return own + share * (mirror_->look(seen, u, v) - own);
   }
 
   const Shader& shader_;
@@ -43,7 +54,14 @@ class PixelPainter {
   const std::vector<Box>& boxes_;
   const std::vector<Face>& faces_;
   const FaceRasteriser& visible_;
+  const PixelPainter* mirror_;
 };
+
+/// The rays as they go on from a mirror on the ground, drawn back to where they seem to come from.
+RayFan below_ground(RayFan fan) {
+  for (Eigen::Vector3d* part : {&fan.centre, &fan.origin, &fan.du, &fan.dv}) part->z() *= -1.0;
+  return fan;
+}
 
 /// The town's boxes, then the traffic's where they start.
 std::vector<Box> with_traffic(std::vector<Box> boxes, const std::vector<MovingVehicle>& traffic) {
@@ -107,7 +125,14 @@ void StreetRenderer::render_rows(const RayFan& fan, double time_s, int rows,
   const std::vector<Box> boxes = boxes_at(time_s);
   const std::vector<Face> faces = faces_towards(boxes, fan.centre, view_range_m_);
   const FaceRasteriser visible(fan, faces, camera_.width, rows);
-  const PixelPainter painter(shader_, fan, boxes, faces, visible);
+  const RayFan below = below_ground(fan);
+  std::vector<Face> above;
+  if (shader_.mirrors()) above = faces_towards(boxes, below.centre, view_range_m_);
+  if (!above.empty()) above.erase(above.begin());  // the ground
+  const FaceRasteriser reflected(below, above, camera_.width, above.empty() ? 0 : rows);
+  const PixelPainter mirror(shader_, below, boxes, above, reflected);
+  const PixelPainter painter(shader_, fan, boxes, faces, visible,
+                             shader_.mirrors() ? &mirror : nullptr);
   for (int v = 0; v < rows; ++v) {
     for (int u = 0; u < camera_.width; ++u) grey.push_back(painter.pixel(u, v));
   }

@@ -7,6 +7,7 @@
 
 #include <cmath>
 #include <cstdlib>
+#include <numeric>
 #include <vector>
 
 namespace oneac::simulation {
@@ -202,6 +203,46 @@ TEST(Road, IsSmootherWhereItShouldBe) {
   const double textured = road_contrast(RoadSurface::kTextured);
   EXPECT_LT(road_contrast(RoadSurface::kDark), 0.5 * textured);
   EXPECT_LT(road_contrast(RoadSurface::kDashes), 0.2 * textured);
+}
+
+/// The frames of a car that drives 0.6 m from one to the next, springs locked.
+SimulationOptions level_drive(RoadSurface road) {
+  SimulationOptions options = small_picture();
+  options.route = RouteKind::kStraight;
+  options.road = road;
+  options.frames = 12;
+  options.speed_mps = 6.0;
+  options.stop_s = 0.0;
+  options.suspension_pitch_deg = options.suspension_roll_deg = 0.0;
+  options.camera_tilt_deg = 0.0;
+  return options;
+}
+
+TEST(Road, OfSlabsLooksTheSameASlabAhead) {
+  const auto change = [](RoadSurface road) {
+    const StreetSimulator drive(level_drive(road));
+    const GreyImage a = drive.frame(10).left, b = drive.frame(11).left;
+    double sum = 0.0;
+    for (int v = kHeight - 30; v < kHeight; ++v) {
+      for (int u = 50; u < 80; ++u) sum += std::abs(int{a.row(v)[u]} - int{b.row(v)[u]});
+    }
+    return sum;
+  };
+  EXPECT_LT(change(RoadSurface::kSlabs), 0.3 * change(RoadSurface::kTextured));
+}
+
+TEST(Road, ThatIsWetMirrorsTheSkyWhereOneLooksAlongIt) {
+  const auto brighter_far_away = [](RoadSurface road) {
+    SimulationOptions options = level_drive(road);
+    options.scenery = Scenery::kFar;
+    const GreyImage image = StreetSimulator(options).frame(0).left;
+    const auto mean = [&](int row) {
+      return std::accumulate(image.row(row), image.row(row) + kWidth, 0.0) / kWidth;
+    };
+    return mean(kHeight / 2 + 6) / mean(kHeight - 5);
+  };
+  EXPECT_GT(brighter_far_away(RoadSurface::kWet), 1.35);
+  EXPECT_LT(brighter_far_away(RoadSurface::kTextured), 1.2);
 }
 
 }  // namespace

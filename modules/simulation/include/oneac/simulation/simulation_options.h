@@ -27,6 +27,8 @@ enum class RoadSurface {
   kTextured,  ///< stones, cracks, repairs, paving, markings
   kDark,      ///< dull and nearly black, faint markings: wet asphalt under clouds
   kDashes,    ///< smooth, with markings and nothing else
+  kSlabs,     ///< paved with slabs of 0.6 m that all look alike
+  kWet,       ///< puddles and a film of water, in which everything above the road is seen again
 };
 /// What moves beside the vehicle.
 enum class Traffic {
