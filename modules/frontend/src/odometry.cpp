@@ -207,7 +207,7 @@ Odometry::SeenInTime Odometry::believed(const FrameStamp& before, const FrameSta
     seen = resting(std::move(seen));
     in_time.rests(seen.status, share_of_inliers(seen));
     if (rest->in_metres) in_time.direct = rest;
-  } else if (!is_on_wheels(seen)) {
+  } else if (!is_on_wheels(seen) || turns_back(seen, before, now)) {
     seen = refused(std::move(seen), last_motion_);
     in_time.status = seen.status;
   }
@@ -255,6 +255,23 @@ std::optional<ScaleCorrection> Odometry::scale_correction(const std::optional<Ma
 
 bool Odometry::is_on_wheels(const TwoView& seen) const {
   return seen.status != StepStatus::kOk || is_drivable(seen.pose.t, course_.now(straight_ahead()));
+}
+
+bool Odometry::turns_back(const TwoView& seen, const FrameStamp& before, const FrameStamp& now) {
+  const bool back = seen.status == StepStatus::kOk && seen.pose.t.dot(heading_) < 0.0;
+  const auto expected = scale_.expected(before.time_s, now.time_s);
+  if (!back || seen.status == StepStatus::kNoMotion) {
+    back_since_.reset();
+    came_to_rest_ = seen.status == StepStatus::kNoMotion;
+    return false;
+  }
+  if (expected) return expected->least > 0.0;
+  // Nobody knows the speed: a car that changes its sense is seen at rest between, if it is seen
+  // often enough. What lasts is true.
+  constexpr double kOften_s = 0.2, kLasts_s = 1.0;
+  if (came_to_rest_ || now.time_s - before.time_s > kOften_s) return false;
+  if (!back_since_) back_since_ = before.time_s;
+  return now.time_s - *back_since_ < kLasts_s;
 }
 
 Eigen::Vector3d Odometry::heading() const {

@@ -76,6 +76,10 @@ class Odometry {
                                     const RoadPair& road);
   /// Whether the car's wheels can take the direction that two views told.
   [[nodiscard]] bool is_on_wheels(const TwoView& seen) const;
+  /// Whether a car that cannot even have come to a stop is seen going the other way: tracks have
+  /// slipped along a road that repeats.
+  [[nodiscard]] bool turns_back(const TwoView& seen, const FrameStamp& before,
+                                const FrameStamp& now);
   /// t̂ of a camera that goes on as it did.
   [[nodiscard]] Eigen::Vector3d heading() const;
   /// t̂ of a camera that travels as it is mounted.
@@ -99,6 +103,8 @@ class Odometry {
   RelativePose T_cam_odom_;                            ///< by the steps alone
   RelativePose last_motion_;                           ///< T_2_1 of the last step, length as used
   Eigen::Vector3d heading_ = Eigen::Vector3d::Zero();  ///< t̂ of the last step that had one
+  std::optional<double> back_since_;                   ///< [s] what goes the other way is refused
+  bool came_to_rest_ = true;                           ///< by the step before
 };
 
 }  // namespace oneac

@@ -27,9 +27,12 @@ PinholeCamera camera() {
   return camera;
 }
 
-/// Asphalt below a level camera at this place [m].
-GreyImage view_from(const Eigen::Vector3d& place) {
+enum class Road { kAsphalt, kSlabs };
+
+/// The road below a level camera at this place [m]; slabs of 0.6 m.
+GreyImage view_from(const Eigen::Vector3d& place, Road road = Road::kAsphalt) {
   static const Texture kTexture(3);
+  const auto on_slab = [](double x) { return x - 0.6 * std::floor(x / 0.6); };
   GreyImage image(camera().width, camera().height, 180);
   SceneGenerator random(static_cast<int>(1000.0 * place.norm()) + 7);
   for (int v = 0; v < image.height(); ++v) {
@@ -37,7 +40,10 @@ GreyImage view_from(const Eigen::Vector3d& place) {
       const Eigen::Vector3d ray = camera().normalise(Eigen::Vector2d(u, v)).homogeneous();
       if (!(ray.y() > 0.01)) continue;
       const Eigen::Vector3d X = place + ray * (kHeight / ray.y());
-      const double grey = 42.0 + 0.4 * kTexture(100.0 * X.x(), 100.0 * X.z());
+      double grey = 42.0 + 0.4 * kTexture(100.0 * X.x(), 100.0 * X.z());
+      if (road == Road::kSlabs) {
+        grey = 42.0 + 0.4 * kTexture(100.0 * on_slab(X.x()), 100.0 * on_slab(X.z()));
+      }
       image.row(v)[u] =
           static_cast<std::uint8_t>(std::clamp(std::lround(grey + random.normal(1.0)), 0L, 255L));
     }
@@ -56,7 +62,7 @@ std::optional<MeasuredTravel> told(const Eigen::Vector3d& way, const Eigen::Vect
   step.focal_px = camera().focal_px();
   if (status == StepStatus::kOk) step.pose.t = -seen.normalized();
   step.covariance.diagonal().setConstant(1e-6);
-  return road_travel(road, step, {{}, -seen.normalized(), expected, 0.1, kHeight});
+  return road_travel(road, step, {{}, -seen.normalized(), expected, 0.1, kHeight}).travel;
 }
 
 const Eigen::Vector3d kAhead(0.0, 0.0, 1.0), kAside(1.0, 0.0, 0.0);
@@ -66,6 +72,23 @@ TEST(RoadTravel, TellsTheLengthOfAStepAhead) {
   ASSERT_TRUE(travel.has_value());
   EXPECT_NEAR(travel->length, 0.9, 3.0 * travel->sigma);
   EXPECT_TRUE(travel->in_metres);
+}
+
+TEST(RoadTravel, SaysThatARoadOfSlabsRepeats) {
+  const auto by = [](Road road) {
+    const GreyImage first = view_from(Eigen::Vector3d::Zero(), road);
+    const GreyImage second = view_from(0.9 * kAhead, road);
+    TwoView step;
+    step.status = StepStatus::kOk;
+    step.focal_px = camera().focal_px();
+    step.pose.t = -kAhead;
+    step.covariance.diagonal().setConstant(1e-6);
+    return road_travel({RoadImage(first.view()), RoadImage(second.view()), camera(), {}}, step,
+                       {{}, -kAhead, {}, 0.1, kHeight});
+  };
+  EXPECT_TRUE(by(Road::kSlabs).repeats);
+  EXPECT_FALSE(by(Road::kSlabs).travel.has_value());
+  EXPECT_FALSE(by(Road::kAsphalt).repeats);
 }
 
 TEST(RoadTravel, SaysHowTheCameraLeansAgainstTheRoad) {
@@ -78,7 +101,7 @@ TEST(RoadTravel, SaysHowTheCameraLeansAgainstTheRoad) {
     step.pose.t = -kAhead;
     step.covariance.diagonal().setConstant(1e-6);
     const Levelling level{levelling_rotation({0.0, believed_deg * kDegree}), 0.0, 2.0 * kDegree};
-    return road_travel(road, step, {level, -kAhead, {}, 0.1, kHeight}).value().roll_right;
+    return road_travel(road, step, {level, -kAhead, {}, 0.1, kHeight}).travel.value().roll_right;
   };
   for (const double believed_deg : {-2.0, 0.0, 2.0}) {
     const AngleBelief seen = rolls_seen(believed_deg);

@@ -65,6 +65,7 @@ Problem make_problem(const RoadViews& views, const PinholeCamera& camera, const 
 struct Candidate {
   RoadFit fit;
   RoadScore score;
+  double searched = 0.0;  ///< evidence of its peak in the search
 };
 
 std::vector<Candidate> candidates_at(const Problem& problem, const RoadGrid& grid,
@@ -79,6 +80,7 @@ std::vector<Candidate> candidates_at(const Problem& problem, const RoadGrid& gri
     candidate.fit =
         polish(problem.context, grid, coarsest, problem.prior, {peak.length, 4.0 * step}, options);
     candidate.score = score_length(problem.context, grid, look, candidate.fit.motion);
+    candidate.searched = peak.evidence;
     candidates.push_back(std::move(candidate));
   }
   std::stable_sort(candidates.begin(), candidates.end(), [](const auto& a, const auto& b) {
@@ -172,18 +174,22 @@ RoadStatus judge(const std::vector<Candidate>& candidates, const LengthRange& ra
                  const RoadAlignmentOptions& options, RoadAlignment& result) {
   const RoadFit& best = candidates.front().fit;
   describe_fit(best, result);
+  bool preferred = false;
   for (const Candidate& other : candidates) {
     const double apart = std::abs(other.fit.motion.length - best.motion.length);
     if (apart < kSamePlace * range.step) continue;
+    // Of a length that the search would rather have the polish has lost the way.
+    preferred = preferred || options.max_rival * other.searched > candidates.front().searched;
+    if (result.rival_length != 0.0) continue;
     result.rival = other.score.evidence / candidates.front().score.evidence;
     result.rival_length = other.fit.motion.length;
-    break;
   }
   if (best.blocks < options.min_blocks && best.agreeing > options.min_agreeing) {
     return RoadStatus::kNoCorrelation;
   }
-  if (result.rival > options.max_rival) return RoadStatus::kAmbiguous;
+  if (result.rival > options.max_rival || preferred) return RoadStatus::kAmbiguous;
   const double length = best.motion.length;
+  if (length < -range.step) return RoadStatus::kAmbiguous;  // the other way than was seen
   if (length < range.low - range.step || length > range.high + range.step) {
     return RoadStatus::kOutOfRange;
   }
@@ -205,6 +211,13 @@ LengthRange range_of(const RoadStep& step, const RoadGrid& grid, const PinholeCa
   // Room for a maximum inside.
   range.low = std::max(range.low - range.step, 0.0);
   range.high += range.step;
+  return range;
+}
+
+/// What is searched: where no length is predicted the other sense of the direction as well, which
+/// tracks that have slipped along a pattern take for the right one.
+LengthRange searched(const RoadStep& step, LengthRange range) {
+  if (step.length_sigma > range.high) range.low = -range.high;
   return range;
 }
 
@@ -231,8 +244,8 @@ RoadAlignment align(const Problem& problem, const RoadStep& step,
   const LengthRange range = range_of(step, grid, problem.context.camera, coarsest, options);
   const RoadLook<float> look{coarsest, template_values(problem.context, grid, coarsest), noise,
                              kSearchStride};
-  const auto peaks =
-      search_lengths(problem.context, grid, look, problem.prior.start, range, kMostPeaks);
+  const auto peaks = search_lengths(problem.context, grid, look, problem.prior.start,
+                                    searched(step, range), kMostPeaks);
   result.status = RoadStatus::kNoCorrelation;
   if (peaks.empty()) return result;
   const auto candidates = candidates_at(problem, grid, coarsest, peaks, range.step, options);

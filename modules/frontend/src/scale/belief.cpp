@@ -91,7 +91,7 @@ std::optional<MeasuredTravel> Scale::rest_by_road(const RoadPair& road, const Tw
   rest.status = StepStatus::kNoMotion;
   rest.focal_px = seen.focal_px;
   const auto told =
-      road_travel(road, rest, {first, heading, expected, step.seconds(), camera_height()});
+      road_travel(road, rest, {first, heading, expected, step.seconds(), camera_height()}).travel;
   if (!told || told->length > kMoves * told->sigma) return std::nullopt;
   unchecked_ = 0;
   return told;
@@ -103,6 +103,18 @@ bool Scale::contradict(const StepLength& a, const StepLength& b) {
 
 bool Scale::is_against(const StepLength& told, const std::optional<ExpectedLength>& expected) {
   return expected && std::isfinite(told.sigma_m) && !expected->allows(told.length, told.sigma_m);
+}
+
+bool Scale::is_unlikely(const StepLength& told, const std::optional<ExpectedLength>& expected) {
+  return expected && std::abs(told.length - expected->length) >
+                         kContradiction * std::hypot(expected->sigma, told.sigma_m);
+}
+
+/// Tracks slip along a road that repeats, and its landmarks with them: what is unlikely then needs
+/// somebody else's word.
+bool Scale::may_have_slipped(const StepLength& told, const StepInTime& step) const {
+  return road_repeats_ > 0 && !step.direct && told.source == LengthSource::kMap &&
+         is_unlikely(told, inertia_.expect(step.begin_s, step.end_s));
 }
 
 StepLength Scale::by_itself(const StepInTime& step) const {
@@ -128,7 +140,8 @@ StepLength Scale::decided(const StepInTime& step,
   std::vector<StepLength> told;
   if (!measured.empty()) {
     const StepLength by_map = stated(measured.front());
-    if (!may_be_the_car(by_map, step)) told.push_back(by_map);
+    const bool sound = !may_be_the_car(by_map, step) && !may_have_slipped(by_map, step);
+    if (sound) told.push_back(by_map);
   }
   if (const StepLength direct = by_itself(step); direct.metric) told.push_back(direct);
   StepLength result = chosen(told, step);

@@ -84,15 +84,14 @@ AngleBelief roll_against(const RoadStep& step, const RoadAlignment& aligned) {
 
 }  // namespace
 
-std::optional<MeasuredTravel> road_travel(const RoadPair& road, const TwoView& seen,
-                                          const RoadTravelPrior& prior) {
-  if (road.empty() || !(prior.seconds > 0.0)) return std::nullopt;
+RoadTravel road_travel(const RoadPair& road, const TwoView& seen, const RoadTravelPrior& prior) {
+  if (road.empty() || !(prior.seconds > 0.0)) return {};
   const double height = prior.camera_height > 0.0 ? prior.camera_height : kUsualHeight;
   const bool directed = seen.status == StepStatus::kOk && seen.pose.t.norm() > 0.0;
   RoadStep step;
   step.T_2_1 = {seen.pose.R, directed ? seen.pose.t : prior.heading};
-  if (!step.T_2_1.is_finite() || !(step.T_2_1.t.norm() > 0.0)) return std::nullopt;
-  if (!goes_along(step.T_2_1.t, prior.heading)) return std::nullopt;
+  if (!step.T_2_1.is_finite() || !(step.T_2_1.t.norm() > 0.0)) return {};
+  if (!goes_along(step.T_2_1.t, prior.heading)) return {};
   const double direction_sigma =
       directed ? rms(seen.covariance.bottomRightCorner<3, 3>(), kTravelSigma) : kHeadingSigma;
   step.information = motion_information(
@@ -101,30 +100,28 @@ std::optional<MeasuredTravel> road_travel(const RoadPair& road, const TwoView& s
   step.pitch_sigma = std::max(prior.first.pitch_sigma, step.pitch_sigma);
   step.roll_sigma = std::max(prior.first.roll_sigma, step.roll_sigma);
   expect(prior, height, directed, step);
-  if (!lies_in_the_road(step, direction_sigma)) return std::nullopt;
+  if (!lies_in_the_road(step, direction_sigma)) return {};
   RoadAlignmentOptions options;
   options.half_width = std::min(options.half_width, kStrip_m / height);
   const RoadAlignment aligned =
       align_road({road.first, road.second, road.mask}, road.camera, step, options, road.workers);
-  if (aligned.status != RoadStatus::kMeasured) return std::nullopt;
+  if (aligned.status == RoadStatus::kAmbiguous) return {std::nullopt, true};
+  if (aligned.status != RoadStatus::kMeasured) return {};
   const double sigma = std::max(aligned.sigma, kLeastSigma);
   const double reach = kBeyond * sigma;  // the fit may leave what was searched
   if (aligned.length < step.min_length - reach || aligned.length > step.max_length + reach) {
-    return std::nullopt;
+    return {};
   }
   // Two views saw a translation: a road that rests contradicts them, and one of the two is wrong.
-  if (directed && aligned.length < reach) return std::nullopt;
+  if (directed && aligned.length < reach) return {};
   if (directed && !is_wide_enough((aligned.length + reach) * room_beside(seen))) {
-    return std::nullopt;
+    return {};
   }
-  if (looks_aside(step) && aligned.length > reach) return std::nullopt;
+  if (looks_aside(step) && aligned.length > reach) return {};
   const double unit = prior.camera_height > 0.0 ? prior.camera_height : 1.0;
-  return MeasuredTravel{aligned.length * unit,
-                        sigma * unit,
-                        LengthSource::kRoadImage,
-                        prior.camera_height > 0.0,
-                        aligned.reach,
-                        looks_aside(step) ? AngleBelief{} : roll_against(step, aligned)};
+  return {MeasuredTravel{aligned.length * unit, sigma * unit, LengthSource::kRoadImage,
+                         prior.camera_height > 0.0, aligned.reach,
+                         looks_aside(step) ? AngleBelief{} : roll_against(step, aligned)}};
 }
 
 }  // namespace oneac

@@ -37,9 +37,15 @@ struct RoadTravelPrior {
   double camera_height = 0.0;  ///< [m]; 0: not known, lengths are in camera heights then
 };
 
+/// What the road says of a step.
+struct RoadTravel {
+  std::optional<MeasuredTravel> travel;  ///< how long it was, if the road tells
+  bool repeats = false;  ///< another length fits as well: slabs, dashes, stripes; corners slip, too
+};
+
 /// Aligns the road of a step photometrically along the direction of two views, or along the heading
-/// where they found none. Empty unless the road says how long it was.
-[[nodiscard]] std::optional<MeasuredTravel> road_travel(const RoadPair& road, const TwoView& seen,
-                                                        const RoadTravelPrior& prior);
+/// where they found none.
+[[nodiscard]] RoadTravel road_travel(const RoadPair& road, const TwoView& seen,
+                                     const RoadTravelPrior& prior);
 
 }  // namespace oneac

@@ -75,7 +75,7 @@ std::vector<LengthMeasurement> Scale::measure(const TwoView& seen,
                                               const Eigen::Vector3d& heading) const {
   if (carried) return {*carried};
   if (seen.status != StepStatus::kOk || !(camera_height() > 0.0)) return {};
-  if (!goes_along(seen.pose.t, heading)) return {};
+  if (!goes_along(seen.pose.t, heading) || corners_may_slip()) return {};
   const auto road =
       road_.measure(affine_parts(seen.pair), seen.inliers, seen.pose, first, seen.focal_px);
   if (!road) return {};
@@ -93,16 +93,34 @@ std::optional<MeasuredTravel> Scale::measure_directly(
   const bool unsure = !by_map.metric || by_map.sigma > kSure * allowed_sigma(by_map.length);
   const auto expected = inertia_.expect(step.begin_s, step.end_s);
   // Inertia is judged by what does not know it, and so is one that nobody has confirmed for long.
-  const bool surprises = (carried && is_against(by_map, expected)) || held_ >= kPatience;
+  const bool surprises =
+      (carried && (is_against(by_map, expected) || is_unlikely(by_map, expected))) ||
+      held_ >= kPatience;
   const bool needed =
       unsure || surprises || needs_road_image_ || conflicts_ > 0 || stamps_are_wrong();
   const bool due = ++unchecked_ >= kCheckEvery;
   if (!resting && !(in_use && (needed || due))) return std::nullopt;
   if (seen.status == StepStatus::kPredicted) return std::nullopt;
   unchecked_ = 0;
-  return road_travel(road, seen,
-                     {first, heading, surprises ? std::nullopt : expected, step.seconds(),
-                      in_use ? camera_height() : 0.0});
+  const RoadTravel told = road_travel(road, seen,
+                                      {first, heading, surprises ? std::nullopt : expected,
+                                       step.seconds(), in_use ? camera_height() : 0.0});
+  return unless_it_repeats(told, expected && !surprises);
+}
+
+/// A length that was expected lies in a narrow range, which no rival is in. Others are not believed
+/// of a road that a moment ago had two: a pattern is not always seen well enough to be one.
+std::optional<MeasuredTravel> Scale::unless_it_repeats(const RoadTravel& told, bool predicted) {
+  constexpr int kLooks = 5;
+  if (told.repeats) road_repeats_ = kLooks;
+  if (predicted || !told.travel || road_repeats_ == 0) return told.travel;
+  --road_repeats_;
+  return std::nullopt;
+}
+
+/// Corners of a pattern slip by its period as its grey values do; a map in metres tells them.
+bool Scale::corners_may_slip() const {
+  return road_repeats_ > 0 && !filter_.is_metric();
 }
 
 std::optional<ScaleCorrection> Scale::begin(const StepInTime& step,
@@ -303,7 +321,7 @@ std::vector<ScaleMeasurement> Scale::measure(const MapLengths& map, const Levell
 std::optional<ScaleMeasurement> Scale::by_road(const KeyframePair& pair, const Levelling& first,
                                                double focal_px) const {
   const double in_map = pair.T_2_1.t.norm();
-  if (!(in_map > 0.0)) return std::nullopt;
+  if (!(in_map > 0.0) || corners_may_slip()) return std::nullopt;
   const std::vector<bool> all(pair.acs.size(), true);
   const auto road = road_.measure(pair.acs, all, pair.T_2_1, first, focal_px);
   if (!road) return std::nullopt;

@@ -190,6 +190,10 @@ class Scale {
   /// Whether inertia does not allow what is known of a length, be it ever so unsure.
   [[nodiscard]] static bool is_against(const StepLength& told,
                                        const std::optional<ExpectedLength>& expected);
+  /// Whether a vehicle seldom does what is told.
+  [[nodiscard]] static bool is_unlikely(const StepLength& told,
+                                        const std::optional<ExpectedLength>& expected);
+  [[nodiscard]] bool may_have_slipped(const StepLength& told, const StepInTime& step) const;
   [[nodiscard]] StepLength steadied(const StepLength& told, const ExpectedLength& expected) const;
   [[nodiscard]] StepLength held(const StepInTime& step) const;
   [[nodiscard]] StepLength at_rest(const StepInTime& step) const;
@@ -206,6 +210,9 @@ class Scale {
   [[nodiscard]] double held_length(const StepInTime& step) const;
   [[nodiscard]] std::vector<ScaleMeasurement> measure(const MapLengths& map, const Levelling& first,
                                                       double focal_px);
+  [[nodiscard]] std::optional<MeasuredTravel> unless_it_repeats(const RoadTravel& told,
+                                                                bool predicted);
+  [[nodiscard]] bool corners_may_slip() const;
   [[nodiscard]] std::optional<ScaleMeasurement> by_road(const KeyframePair& pair,
                                                         const Levelling& first,
                                                         double focal_px) const;
@@ -229,6 +236,7 @@ class Scale {
   double last_metric_time_ = 0.0;   ///< [s]
   Inertia inertia_;
   Interval interval_;
+  int road_repeats_ = 0;          ///< looks at all lengths that the road must tell apart again
   bool needs_road_image_ = true;  ///< the road's corners did not measure the last keyframe
   bool moved_ = false;            ///< a motion was seen since the drive began
   int unchecked_ = 0;             ///< steps since the road's grey values were asked

@@ -61,8 +61,8 @@ class PoseUncertainty {
   Eigen::Vector3d with_length_ = Eigen::Vector3d::Zero();  ///< covariance of p and e
 };
 
-/// [rad] 1σ, about the axes of the second camera, of what the step's rotation has wrong as all steps
-/// of the drive have.
+/// [rad] 1σ, about the axes of the second camera, of what the step's rotation has wrong as all
+/// steps of the drive have.
 [[nodiscard]] Eigen::Vector3d shared_rotation_sigma(const StepResult& step);
 
 /// Relative 1σ that all turns of a drive share, for the doubt of its camera.
