@@ -9,6 +9,7 @@
 #include "oneac/geometry/camera_height.h"
 #include "oneac/geometry/camera_plausibility.h"
 #include "oneac/rawlog/calibration.h"
+#include "oneac/rawlog/log_neighbours.h"
 #include "oneac/rawlog/rawlog_writer.h"
 
 namespace oneac {
@@ -40,6 +41,8 @@ class DriveWriter {
       pending.push_back({wheels.time_s, [&wheels](RawlogWriter& log) { log.write(wheels); }});
     }
     write_in_order(std::move(pending), log_);
+    if (drive_.made) drive_.made->keep();
+    references_.keep();
     log_.close();
     report.observations = drive_.images.size();
     report.images = drive_.images.size() + rights_;
@@ -49,10 +52,14 @@ class DriveWriter {
   }
 
  private:
+  [[nodiscard]] std::string reference(const fs::path& image, const std::string& prefix = "") {
+    return drive_.made ? drive_.made->kept_path(image) : references_.refer_to(image, prefix);
+  }
+
   void write_image(std::size_t i, RawlogWriter& log) {
     if (drive_.right) return write_pair(i, log);
     log.write(ImageRecord{drive_.times_s[i], drive_.label, drive_.camera, drive_.T_vehicle_cam,
-                          drive_.convention, references_.refer_to(drive_.images[i])});
+                          drive_.convention, reference(drive_.images[i])});
   }
 
   void write_pair(std::size_t i, RawlogWriter& log) {
@@ -63,9 +70,9 @@ class DriveWriter {
     record.T_vehicle_left = drive_.T_vehicle_cam;
     record.T_left_right.translation().x() = drive_.right->baseline_m;
     record.convention = drive_.convention;
-    record.left_file = references_.refer_to(drive_.images[i], "left_");
+    record.left_file = reference(drive_.images[i], "left_");
     const fs::path& right = drive_.right->images[i];
-    if (!right.empty()) record.right_file = references_.refer_to(right, "right_");
+    if (!right.empty()) record.right_file = reference(right, "right_");
     rights_ += right.empty() ? 0U : 1U;
     log.write(record);
   }
@@ -81,6 +88,15 @@ class DriveWriter {
 void write_drive(const ImageDrive& drive, const fs::path& log, bool copy_images,
                  ImportReport& report) {
   DriveWriter(drive, log, copy_images).run(report);
+  note_strange_poses(log, report);
+}
+
+void note_strange_poses(const fs::path& log, ImportReport& report) {
+  const std::string poses = poses_beside(log);
+  if (poses.empty() || !report.poses.empty()) return;
+  report.notes.push_back(poses +
+                         " lies beside the log and is not of this import: `run` compares with it; "
+                         "take it away if it is of another drive");
 }
 
 PinholeCamera calibration_for(const std::string& file_and_section, const fs::path& image,
@@ -121,7 +137,7 @@ PinholeCamera given_calibration(const DriveImport& options, const fs::path& imag
 void require_camera_height(double height_m) {
   if (CameraHeight::is_plausible(height_m)) return;
   throw InputError("--camera-height " + exact_text(height_m),
-                   "no camera of a vehicle is so high above the road",
+                   "no camera of a vehicle is that far above the road",
                    "give metres, from " + exact_text(CameraHeight::kLowest) + " to " +
                        exact_text(CameraHeight::kHighest));
 }

@@ -1,10 +1,13 @@
 #pragma once
 
+#include "import/made_images.h"
+
 #include "oneac/geometry/camera.h"
 #include "oneac/rawlog/import_drive.h"
 #include "oneac/rawlog/sensor_records.h"
 
 #include <filesystem>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -24,7 +27,8 @@ struct RightImages {
 struct ImageDrive {
   std::string label;
   std::vector<std::filesystem::path> images;
-  std::vector<double> times_s;  ///< Unix times, one per image, increasing
+  std::shared_ptr<MadeImages> made;  ///< they lie in its folder; null: they were there before
+  std::vector<double> times_s;       ///< Unix times, one per image, increasing
   PinholeCamera camera;
   std::optional<RightImages> right;
   Eigen::Isometry3d T_vehicle_cam = Eigen::Isometry3d::Identity();
@@ -37,6 +41,9 @@ struct ImageDrive {
 /// Writes the drive in the order of its times and counts it.
 void write_drive(const ImageDrive& drive, const std::filesystem::path& log, bool copy_images,
                  ImportReport& report);
+
+/// Says that poses beside the log, which this import has not written, are taken for its truth.
+void note_strange_poses(const std::filesystem::path& log, ImportReport& report);
 
 /// The calibration for images of one size: scaled, and said, where only its size differs.
 /// @param file_and_section  as of load_calibration()

@@ -169,22 +169,24 @@ void require_source_folder(const fs::path& source) {
   throw InputError(source.string(), "no such folder", "give the folder of the dataset to import");
 }
 
-ImageReferences::ImageReferences(const fs::path& log, bool copy) {
-  if (!copy) return;
-  copies_ = log.parent_path() / (log.stem().string() + "_Images");
-  require_writable_folder(copies_);
-}
-
-std::string ImageReferences::refer_to(const fs::path& image, const std::string& prefix) const {
-  if (copies_.empty()) return fs::canonical(image).string();
-  std::string name = prefix + image.filename().string();
+std::string ImageReferences::refer_to(const fs::path& image, const std::string& prefix) {
+  if (!copy_) return fs::canonical(image).string();
   std::error_code error;
-  fs::copy_file(image, replaced_file(copies_ / name), fs::copy_options::overwrite_existing, error);
+  std::string name = prefix + image.filename().string();
+  const bool lies_there = fs::equivalent(image.parent_path(), images_beside(log_), error);
+  if (lies_there && prefix.empty()) return name;
+  if (!copies_) copies_ = std::make_unique<MadeImages>(log_);
+  fs::copy_file(image, copies_->folder() / name, error);
   if (error) {
-    throw OutputError((copies_ / name).string(), "cannot be copied (" + error.message() + ")",
+    throw OutputError((copies_->destination() / name).string(),
+                      "cannot be copied (" + error.message() + ")",
                       "free some space or import without --copy-images");
   }
   return name;
+}
+
+void ImageReferences::keep() {
+  if (copies_) copies_->keep();
 }
 
 }  // namespace oneac

@@ -1,8 +1,11 @@
 #pragma once
 
+#include "import/made_images.h"
+
 #include "oneac/observations/sensor_mount.h"
 
 #include <filesystem>
+#include <memory>
 #include <string>
 #include <utility>
 #include <vector>
@@ -34,16 +37,19 @@ void require_mount(const MountAngles& mount);
 /// How a log refers to its images: where they are, or copied to <log base>_Images beside it.
 class ImageReferences {
  public:
-  /// @throws InputError when copies cannot be written
-  ImageReferences(const std::filesystem::path& log, bool copy);
-  /// What to store in the log for an image that exists. @throws OutputError when it cannot be
-  /// copied
+  ImageReferences(std::filesystem::path log, bool copy) : log_(std::move(log)), copy_(copy) {}
+  /// What to store in the log for an image that exists. One that lies there already is not copied.
   /// @param prefix  of its copy's name: the images of a pair have the same one
+  /// @throws OutputError when it cannot be copied, InputError as MadeImages
   [[nodiscard]] std::string refer_to(const std::filesystem::path& image,
-                                     const std::string& prefix = "") const;
+                                     const std::string& prefix = "");
+  /// Before the log is closed: the copies are complete. @throws OutputError
+  void keep();
 
  private:
-  std::filesystem::path copies_;  ///< empty: images stay where they are
+  std::filesystem::path log_;
+  bool copy_;  ///< else images stay where they are
+  std::unique_ptr<MadeImages> copies_;
 };
 
 }  // namespace oneac

@@ -112,6 +112,11 @@ std::vector<std::string> lines_of(const fs::path& file) {
 void require_poses(const std::vector<std::vector<double>>& table, const fs::path& file) {
   constexpr double kOrthonormal = 1e-3, kFarthest = 1e15;  // as when a reference is read
   for (std::size_t row = 0; row < table.size(); ++row) {
+    if (table[row].size() != kPoseColumns) {
+      throw InputError(file.string() + ": row " + std::to_string(row + 1),
+                       "holds " + std::to_string(table[row].size()) + " numbers, a pose is 12",
+                       "give the poses.txt of this sequence, or take it away");
+    }
     const Eigen::Matrix<double, 3, 4, Eigen::RowMajor> T(table[row].data());
     const Eigen::Matrix3d R = T.leftCols<3>();
     if (!(T.col(3).cwiseAbs().maxCoeff() < kFarthest)) {

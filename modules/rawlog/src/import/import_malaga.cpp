@@ -1,5 +1,6 @@
 #include "oneac/rawlog/import_malaga.h"
 
+#include "import/image_drive.h"
 #include "import/import_images.h"
 #include "import/malaga_images.h"
 #include "import/malaga_text.h"
@@ -42,11 +43,13 @@ class MalagaImporter {
     add_gps();
     add_imu();
     RawlogWriter log(options_.log);
-    const ImageReferences references(options_.log, options_.copy_images);
+    ImageReferences references(options_.log, options_.copy_images);
     for (const MalagaPair& pair : pairs) add_pair(pair, references);
     note_what_is_missing(pairs);
     write_in_order(std::move(pending_), log);
+    references.keep();
     log.close();
+    note_strange_poses(options_.log, report_);
     return report_;
   }
 
@@ -83,7 +86,7 @@ class MalagaImporter {
     for (const ImuRecord& record : records) add(record);
   }
 
-  void add_pair(const MalagaPair& pair, const ImageReferences& references) {
+  void add_pair(const MalagaPair& pair, ImageReferences& references) {
     StereoRecord record;
     record.time_s = pair.time_s;
     record.label = pair.label;

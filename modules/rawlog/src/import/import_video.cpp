@@ -31,27 +31,12 @@ void require_part(const VideoImport& options) {
 /// Decodes a part of a video to PNG files.
 class FrameWriter {
  public:
-  explicit FrameWriter(const VideoImport& options)
-      : options_(options),
-        folder_(options.log.parent_path() / (options.log.stem().string() + "_Images")) {
-    require_writable_folder(folder_);
-  }
+  FrameWriter(const VideoImport& options, fs::path folder)
+      : options_(options), folder_(std::move(folder)) {}
 
   /// What of the video is missing or damaged goes to the notes.
   /// @throws InputError when the video has no such part
   void run(ImageDrive& drive, ImportReport& report) {
-    try {
-      decode(drive, report);
-    } catch (...) {  // no log will refer to them
-      std::error_code ignored;
-      for (const fs::path& image : drive.images) fs::remove(image, ignored);
-      fs::remove(folder_, ignored);  // if it is empty
-      throw;
-    }
-  }
-
- private:
-  void decode(ImageDrive& drive, ImportReport& report) {
     VideoFile video(options_.source);
     std::size_t frame = 0;
     bool to_its_end = true;
@@ -82,6 +67,7 @@ class FrameWriter {
                           : "copy the video again: it is cut off or damaged");
   }
 
+ private:
   [[noreturn]] void fail(std::size_t frame, const std::string& fault,
                          const std::string& cure) const {
     throw InputError(options_.source.string() + ": frame " + std::to_string(frame), fault, cure);
@@ -220,14 +206,13 @@ ImportReport import_video(const VideoImport& options) {
   drive.convention = options.convention;
   std::vector<GpsRecord> gps = read_gps(options, report);
   const double start_s = start_of(options, gps, report);
-  FrameWriter frames(options);
-  frames.run(drive, report);
+  drive.made = std::make_shared<MadeImages>(options.log);
+  FrameWriter(options, drive.made->folder()).run(drive, report);
   for (double& time : drive.times_s) time += start_s;
   drive.camera = given_calibration(options, drive.images.front(), report);
   report.notes.push_back(std::to_string(drive.images.size()) + " frames decoded to " +
-                         drive.images.front().parent_path().string());
+                         drive.made->destination().string());
   add_gps(std::move(gps), drive, report);
-  for (fs::path& image : drive.images) image = fs::absolute(image);
   write_drive(drive, options.log, false, report);
   return report;
 }

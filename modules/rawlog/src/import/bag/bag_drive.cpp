@@ -45,7 +45,8 @@ void sort_by_time(Images& images) {
 BagDrive::BagDrive(const RosbagImport& options, BagChoice choice)
     : options_(options),
       choice_(std::move(choice)),
-      files_(options.log.parent_path() / (options.log.stem().string() + "_Images")) {}
+      made_(std::make_shared<MadeImages>(options.log)),
+      files_(made_->folder()) {}
 
 std::string BagDrive::where(const BagTopic& topic, const BagMessage& message) const {
   return options_.source.string() + ": " + topic.name + ": message " +
@@ -165,7 +166,7 @@ void BagDrive::put_images(ImageDrive& drive, ImportReport& report) {
     const bool again = !drive.times_s.empty() && !(image.time_s > drive.times_s.back());
     doubled += again ? 1U : 0U;
     if (again && !options_.fps) continue;
-    drive.images.push_back(fs::absolute(image.file));
+    drive.images.push_back(image.file);
     drive.times_s.push_back(image.time_s);
   }
   if (drive.images.size() < 2) {
@@ -227,7 +228,7 @@ void BagDrive::put_right(ImageDrive& drive, ImportReport& report) const {
         std::lower_bound(right_.begin(), right_.end(), time - kSameTime_s,
                          [](const BagImage& image, double t) { return image.time_s < t; });
     const bool there = next != right_.end() && next->time_s <= time + kSameTime_s;
-    right.images.push_back(there ? fs::absolute(next->file) : fs::path());
+    right.images.push_back(there ? next->file : fs::path());
     pairs += there ? 1U : 0U;
   }
   if (pairs == 0) {
@@ -272,6 +273,7 @@ void BagDrive::note_times(ImportReport& report) const {
 ImageDrive BagDrive::drive(ImportReport& report) {
   ImageDrive drive;
   drive.label = label_of(choice_.images);
+  drive.made = made_;
   put_images(drive, report);
   put_camera(drive, report);
   put_right(drive, report);

@@ -7,6 +7,7 @@
 #include "import/image_drive.h"
 
 #include <map>
+#include <memory>
 #include <optional>
 #include <string>
 #include <utility>
@@ -66,6 +67,7 @@ class BagDrive {
 
   const RosbagImport& options_;
   BagChoice choice_;
+  std::shared_ptr<MadeImages> made_;
   BagImages files_;
   std::vector<BagImage> left_, right_;
   std::map<std::string, std::pair<std::uint32_t, std::uint32_t>> sizes_;  ///< by topic

@@ -124,18 +124,12 @@ const char* ending_of(const RosCompressedImage& image) {
 
 }  // namespace
 
-fs::path BagImages::file(const std::string& name) {
-  if (!has_folder_) require_writable_folder(folder_);
-  has_folder_ = true;
-  return folder_ / name;
-}
-
 fs::path BagImages::write(const RosImage& image, const std::string& name) {
   const cv::Mat pixels = pixels_of(image);
-  const fs::path png = file(name + ".png");
+  const fs::path png = folder_ / (name + ".png");
   bool written = false;
   try {
-    written = cv::imwrite(replaced_file(png).string(), pixels);
+    written = cv::imwrite(png.string(), pixels);
   } catch (const cv::Exception&) {
   }
   if (!written) throw OutputError(png.string(), "cannot be written", "free some space");
@@ -143,7 +137,7 @@ fs::path BagImages::write(const RosImage& image, const std::string& name) {
 }
 
 fs::path BagImages::write(const RosCompressedImage& image, const std::string& name) {
-  const fs::path path = file(name + ending_of(image));
+  const fs::path path = folder_ / (name + ending_of(image));
   write_file_atomically(
       path, std::string_view(reinterpret_cast<const char*>(image.file.data), image.file.size));
   return path;

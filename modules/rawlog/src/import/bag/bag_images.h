@@ -7,8 +7,8 @@
 
 namespace oneac {
 
-/// Writes images of a bag to files: <folder>/<prefix><number>.png or .jpg. The folder is made with
-/// the first.
+/// Writes images of a bag to files: <folder>/<prefix><number>.png or .jpg.
+/// @pre the folder is there
 class BagImages {
  public:
   explicit BagImages(std::filesystem::path folder) : folder_(std::move(folder)) {}
@@ -21,10 +21,7 @@ class BagImages {
                                             const std::string& name);
 
  private:
-  [[nodiscard]] std::filesystem::path file(const std::string& name);
-
   std::filesystem::path folder_;
-  bool has_folder_ = false;
 };
 
 }  // namespace oneac
