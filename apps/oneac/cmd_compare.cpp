@@ -3,6 +3,7 @@
 #include "run/run_options.h"
 #include "terminal/interrupt.h"
 #include "terminal/key_flags.h"
+#include "terminal/own_results.h"
 #include "terminal/progress_bar.h"
 
 #include "oneac/base/atomic_file.h"
@@ -88,10 +89,22 @@ void add_method_faults(const ComparisonData& data, std::vector<std::string>& not
   notes.insert(notes.end(), faults.begin(), faults.end());
 }
 
+/// Of write_comparison().
+void require_place(const std::string& folder) {
+  require_writable_folder(folder);
+  require_own("compare", folder,
+              {{"pairs.csv", "log,index1,index2,method,trial,"},
+               {"timings.csv", "log,index1,index2,method,trial,ms"},
+               {"summary.csv", "log,method,estimates,"},
+               {"table.md", "| | method |"},
+               {"table.tex", "% needs \\usepackage{multirow,graphicx}"},
+               {"report.html", "<title>Initialisers compared"}});
+}
+
 void compare(CompareFlags& flags) {
   const CompareSettings settings = settings_from(flags);
   const Shard shard = parse_shard(flags.shard);
-  require_writable_folder(flags.options.output);
+  require_place(flags.options.output);
   Journal journal(flags.options.output, settings, shard);
   catch_interrupts();
   std::vector<std::string> damage, notes;
@@ -142,7 +155,7 @@ void merge(const CompareFlags& flags) {
     throw InputError("--merge", "the journals are empty", "run the shards first");
   }
   const CompareSettings settings = settings_of(journals.front());
-  require_writable_folder(flags.options.output);
+  require_place(flags.options.output);
   const ComparisonData data = merge_journals(settings, journals);
   const std::vector<std::string> missing = missing_in(journals, data);
   std::vector<std::string> faults;

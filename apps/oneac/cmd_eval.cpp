@@ -9,6 +9,7 @@
 
 #include <CLI/CLI.hpp>
 
+#include <cmath>
 #include <iostream>
 #include <memory>
 #include <string>
@@ -31,7 +32,10 @@ void take_offset(const std::string& text, EvaluationRequest& request) {
   request.estimate_offset = text == "estimate";
   if (text.empty() || request.estimate_offset) return;
   const auto offset_s = finite_number(text);
-  if (!offset_s) throw InputError("--offset " + text, "is no number", "give seconds, or estimate");
+  constexpr double kLongest_s = 1e11;  // from the year 1970 to the year 5138
+  if (!offset_s || std::abs(*offset_s) > kLongest_s) {
+    throw InputError("--offset " + text, "is no number of seconds", "give seconds, or estimate");
+  }
   request.time.offset_s = *offset_s;
 }
 
@@ -69,8 +73,8 @@ void add_eval(CLI::App& program) {
       ->check(CLI::IsMember({"none", "se3", "sim3"}))
       ->capture_default_str();
   verb->add_option("--max-difference", arguments->max_difference_s,
-                   "seconds to the nearest row of the reference at most; without it 10 ms, and "
-                   "poses are interpolated between rows up to 0.25 s apart")
+                   "seconds to the nearest row of the reference at most; without it 10 ms, or as "
+                   "far as rows around it are 0.25 s apart at most: poses between are interpolated")
       ->check(above_zero());
   verb->add_option("--offset", arguments->offset,
                    "seconds to be added to the estimate's times, or: estimate (by the turns of "

@@ -6,6 +6,7 @@
 #include "run/run_outputs.h"
 #include "terminal/interrupt.h"
 #include "terminal/key_flags.h"
+#include "terminal/own_results.h"
 
 #include "oneac/base/atomic_file.h"
 #include "oneac/base/error.h"
@@ -63,6 +64,12 @@ void run(FeaturesFlags& flags) {
   }
   if (options.output.empty()) throw InputError("features", "no output folder given", "add -o DIR");
   require_writable_folder(options.output);
+  require_own("features", options.output,
+              {{"pairs.csv", "index1,index2,acs,followed,"},
+               {"track_lengths.csv", "images,tracks"},
+               {"regions.csv", "row,column,count,"},
+               {"summary.md", "# Affine correspondences of a drive"},
+               {"regions.png", "PNG"}});
   catch_interrupts();
   FeatureStatistics statistics(options.front_end.consensus.threshold_px);
   GreyImage last_image;

@@ -183,6 +183,32 @@ TEST_F(Everyday, AReferenceThatIsNoneCostsNoResults) {
   fs::rename(kept, poses);
 }
 
+TEST_F(Everyday, WhatCompareAndFeaturesHaveNotWrittenStays) {
+  const auto call = [&](const char* verb, const std::vector<std::string>& more) {
+    std::vector<std::string> words{verb, log(), "-o", out(), "--count", "3", "--no-progress"};
+    words.insert(words.end(), more.begin(), more.end());
+    return oneac_program(words);
+  };
+  const fs::path folder(out());
+  fs::create_directories(folder);
+  const std::vector<std::string> one{"--initialisers", "5pc"};
+  for (const char* name : {"report.html", "table.md", "pairs.csv"}) {
+    write_text(folder / name, "mine");
+    expect_refused(call("compare", one), {name, "no compare has written it"});
+    EXPECT_EQ(read_file(folder / name), "mine");
+    fs::remove(folder / name);
+  }
+  ASSERT_EQ(call("compare", one).exit_code, 0);
+  EXPECT_EQ(call("compare", one).exit_code, 0) << "its own are replaced";
+  expect_refused(call("features", {}), {"pairs.csv", "no features has written it"});
+  fs::remove_all(folder);
+  ASSERT_EQ(call("features", {}).exit_code, 0);
+  EXPECT_EQ(call("features", {}).exit_code, 0);
+  fs::remove(folder / "summary.md");
+  ASSERT_EQ(::mkfifo((folder / "summary.md").c_str(), 0600), 0);
+  expect_refused(call("features", {}), {"summary.md", "is a pipe"});
+}
+
 TEST_F(Everyday, ACalibrationIsNotWrittenOverWhatOthersHaveMade) {
   const auto calibrate = [&](const std::string& output) {
     return oneac_program({"calibrate", log(), "-o", output, "--no-progress"});

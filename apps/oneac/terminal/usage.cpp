@@ -31,7 +31,12 @@ std::string about_verb(const CLI::App& program, const std::vector<std::string>& 
   if (known) {  // it may have verbs of its own
     return about_verb(*program.get_subcommand(word), {arguments.begin() + 1, arguments.end()});
   }
-  if (!word.empty() && word.front() == '-') return "";
+  if (!word.empty() && word.front() == '-') {
+    return "'" + shortened(word, kLongestWord) +
+           "' stands where a verb belongs, flags go behind it. "
+           "There are: " +
+           all;
+  }
   return "'" + shortened(word, kLongestWord) + "' is no verb, did you mean '" +
          nearest_name(shortened(word, kLongestWord), verbs) + "'? There are: " + all;
 }

@@ -295,6 +295,7 @@ LogRecord log_from(const Json& json, const CompareSettings& settings) {
   if (record.pairs != pairs) fail("pairs", json["pairs"], std::to_string(pairs));
   record.last_index = count_in(json.at("last_index"), "last_index");
   if (json.contains("content")) record.content = printable(json["content"].get<std::string>());
+  if (json.at("tilt").size() != 2) fail("tilt", json["tilt"], "two numbers");
   record.tilt = {number_in(json.at("tilt").at(0), "tilt", -kRightAngle, kRightAngle),
                  number_in(json.at("tilt").at(1), "tilt", -kRightAngle * 2, kRightAngle * 2)};
   record.reference = printable(json.at("reference").get<std::string>());
