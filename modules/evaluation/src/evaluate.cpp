@@ -77,13 +77,14 @@ struct Association {
   std::vector<RowMatch> matches;
   Trajectory reference;
   std::size_t interpolated = 0;
+  bool by_time = false;
 };
 
 Association match_times(const std::vector<double>& times, const Trajectory& reference,
                         const TimeAlignment& time) {
   ResampledReference at_times = resampled(reference, times, time);
   auto matches = match_by_time(times, at_times.trajectory.times);
-  return {std::move(matches), std::move(at_times.trajectory), at_times.interpolated};
+  return {std::move(matches), std::move(at_times.trajectory), at_times.interpolated, true};
 }
 
 Association match_frames(const ProcessedFrames& frames, const Trajectory& reference,
@@ -136,16 +137,21 @@ std::string span_of(const std::vector<double>& times) {
 }
 
 [[noreturn]] void throw_nothing_in_common(const EvaluationRequest& request,
-                                          const std::vector<double>& times,
-                                          const Trajectory& reference) {
+                                          std::vector<double> times, const Trajectory& reference,
+                                          double offset_s) {
   const std::string fault = "has no frame in common with " + request.reference.string();
   if (times.empty() || !reference.has_times()) {
     throw InputError(request.estimate.string(), fault, "name the reference of the same log");
   }
-  throw InputError(request.estimate.string(),
-                   fault + " (" + span_of(times) + " against " + span_of(reference.times) + ")",
-                   "name the reference of the same log; give --offset S or --offset estimate for "
-                   "another clock, --max-difference S for rows further apart than 10 ms");
+  for (double& time : times) time += offset_s;
+  const std::string shifted =
+      offset_s != 0.0 ? ", the offset of " + fixed_text(offset_s, 3) + " s added" : "";
+  throw InputError(
+      request.estimate.string(),
+      fault + " (" + span_of(times) + shifted + ", against " + span_of(reference.times) + ")",
+      offset_s != 0.0 ? "correct --offset, or --offset estimate"
+                      : "name the reference of the same log; give --offset S or --offset estimate "
+                        "for another clock, --max-difference S for rows further apart than 10 ms");
 }
 
 /// The offset that was asked for, found where it is to be estimated.
@@ -217,7 +223,7 @@ Evaluation evaluate_pairs_file(const EvaluationRequest& request) {
   const TimeAlignment time = time_alignment(request, chained(rows), reference, asked);
   Evaluation evaluation = evaluate_pairs(rows, reference, time);
   if (evaluation.pairs.empty()) {
-    throw_nothing_in_common(request, distinct_times(rows), reference);
+    throw_nothing_in_common(request, distinct_times(rows), reference, time.offset_s);
   }
   evaluation.offset_s = asked.offset_s;
   evaluation.notes.insert(evaluation.notes.begin(), asked.notes.begin(), asked.notes.end());
@@ -230,7 +236,14 @@ Evaluation evaluate_trajectory_file(const EvaluationRequest& request) {
   const Trajectory reference = take_file(read_trajectory_file(request.reference), evaluation);
   const TimeAlignment time = time_alignment(request, estimate, reference, evaluation);
   const Association found = associate(request, estimate, reference, time);
-  if (found.matches.empty()) throw_nothing_in_common(request, estimate.times, reference);
+  if (found.matches.empty()) {
+    throw_nothing_in_common(request, estimate.times, reference, time.offset_s);
+  }
+  if (time.offset_s != 0.0 && !found.by_time) {
+    evaluation.notes.push_back("the offset counts for nothing: " + request.estimate.string() +
+                               " has no times");
+    evaluation.offset_s.reset();
+  }
   const MatchedTrajectories matched = matched_poses(estimate, found.reference, found.matches);
   note_interpolated(found.interpolated, evaluation);
   evaluation.estimate_frames = estimate.poses.size();

@@ -130,6 +130,9 @@ ResampledReference resampled(const Trajectory& reference, const std::vector<doub
   };
   for (const double time : times) {
     const double wanted = time + alignment.offset_s;
+    const bool lies_near =
+        !alignment.max_difference_s || nearest_row(reference.times, wanted, furthest);
+    if (!lies_near) continue;
     const auto same = nearest_row(reference.times, wanted, std::min(tolerance, furthest));
     if (same) {
       add(time, reference.poses[*same]);

@@ -23,8 +23,7 @@ enum class Form {
   kSquare,       ///< 16: the same matrix with its last row
   kTimedMatrix,  ///< 13: time, KITTI
   kTimedSquare,  ///< 17: time, 16 numbers
-  kEuroc,        ///< 8 and more behind commas: time, position, qw qx qy qz
-  kTumCommas,    ///< the same with qw last
+  kCommas,       ///< 8 and more behind commas, by Columns
   kBlock         ///< 4: a row of a matrix of four lines
 };
 
@@ -44,30 +43,63 @@ std::vector<std::string_view> fields_of(std::string_view line) {
   return has_commas(line) ? split_at_commas(line) : split_at_blanks(line);
 }
 
-/// The form that names such as "q_RS_w []" and "q_RS_x []", or "qw" and "qx", in the line before
-/// the first of numbers tell; none without.
-std::optional<Form> named_form(std::string_view text, std::string_view first) {
+/// Where a comma-separated line has time, x, y, z, qw, qx, qy, qz.
+using Columns = std::array<std::size_t, 8>;
+constexpr Columns kEurocColumns{0, 1, 2, 3, 4, 5, 6, 7}, kTumColumns{0, 1, 2, 3, 7, 4, 5, 6};
+
+/// Of a column's name such as "q_RS_w []", "p_RS_R_x [m]", "qw", "tx" or "#timestamp [ns]": its
+/// place in Columns.
+std::optional<std::size_t> role_of(std::string_view named) {
+  std::string name(named.substr(0, named.find_first_of("[(")));
+  name.erase(std::remove_if(name.begin(), name.end(),
+                            [](unsigned char c) { return std::isalnum(c) == 0; }),
+             name.end());
+  std::transform(name.begin(), name.end(), name.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  if (name.empty()) return std::nullopt;
+  if (name == "t" || name.find("time") != std::string::npos ||
+      name.find("stamp") != std::string::npos) {
+    return 0;
+  }
+  constexpr std::string_view kAxes = "wxyz";
+  const std::size_t axis = kAxes.find(name.back());
+  if (axis == std::string_view::npos) return std::nullopt;
+  const char kind = name.front();
+  if (kind == 'q' || kind == 'o') return 4 + axis;  // q…, orientation
+  const bool place = name.size() == 1 || kind == 'p' || kind == 't';
+  if (!place || axis == 0) return std::nullopt;  // a velocity, a bias
+  return axis;
+}
+
+/// As the line of names before the first of numbers tells; none without.
+/// @throws InputError where it names a pose in part
+std::optional<Columns> named_columns(std::string_view text, std::string_view first,
+                                     const std::string& file) {
   std::string_view head = text.substr(0, text.find(first));
   while (!head.empty() && (head.back() == '\n' || head.back() == '\r')) head.remove_suffix(1);
   const std::string_view line = head.substr(head.rfind('\n') + 1);
-  std::size_t w = 0, x = 0, place = 0;
+  Columns columns{};
+  std::array<bool, 8> told{};
+  std::size_t place = 0;
   for (const std::string_view name : split_at_commas(line)) {
+    if (const auto role = role_of(name); role && !told.at(*role)) {
+      columns.at(*role) = place;
+      told.at(*role) = true;
+    }
     ++place;
-    const auto q = name.find('q');
-    if (q == std::string_view::npos) continue;
-    if (name.find('w', q) != std::string_view::npos) w = place;
-    if (name.find('x', q) != std::string_view::npos) x = place;
   }
-  if (w == 0 || x == 0) return std::nullopt;
-  return w > x ? Form::kTumCommas : Form::kEuroc;
+  if (std::all_of(told.begin(), told.end(), [](bool t) { return t; })) return columns;
+  if (std::none_of(told.begin() + 1, told.end(), [](bool t) { return t; })) return std::nullopt;
+  constexpr std::array<const char*, 8> kNames{"time", "x", "y", "z", "qw", "qx", "qy", "qz"};
+  const auto missing =
+      static_cast<std::size_t>(std::find(told.begin(), told.end(), false) - told.begin());
+  throw InputError(file, std::string("its first line names columns, but no ") + kNames.at(missing),
+                   "name time, x, y, z, qw, qx, qy and qz");
 }
 
-std::optional<Form> form_of(std::string_view text, std::string_view first) {
+std::optional<Form> form_of(std::string_view first) {
   const std::size_t columns = fields_of(first).size();
-  if (has_commas(first)) {
-    if (columns < 8) return std::nullopt;
-    return named_form(text, first).value_or(Form::kEuroc);
-  }
+  if (has_commas(first)) return columns < 8 ? std::nullopt : std::optional(Form::kCommas);
   switch (columns) {
     case 4:
       return Form::kBlock;
@@ -104,15 +136,21 @@ struct Row {
                    "remove the line or write the file again");
 }
 
-/// Behind commas only the pose is read: what follows it may be anything.
-Row row_of(const TextLine& line, const std::string& file, bool timed) {
-  constexpr std::size_t kPose = 8;
+/// Behind commas only the pose is read: what stands beside it may be anything.
+std::vector<std::size_t> places_of(Form form, const Columns& columns, std::size_t fields) {
+  if (form == Form::kCommas) return {columns.begin(), columns.end()};
+  std::vector<std::size_t> all(fields);
+  std::iota(all.begin(), all.end(), std::size_t{0});
+  return all;
+}
+
+Row row_of(const TextLine& line, const std::string& file, Form form, const Columns& columns) {
   Row row;
   row.where = where_in(file, line.number);
-  auto fields = fields_of(line.text);
-  if (has_commas(line.text) && fields.size() > kPose) fields.resize(kPose);
-  for (std::size_t i = 0; i < fields.size(); ++i) {
-    const bool is_time = timed && i == 0;
+  const auto fields = fields_of(line.text);
+  for (const std::size_t i : places_of(form, columns, fields.size())) {
+    if (i >= fields.size()) break;
+    const bool is_time = is_timed(form) && row.numbers.empty() && i == columns.front();
     const auto value = is_time ? parse_time(fields[i]) : parse_finite(fields[i]);
     if (!value) bad_number(row.where, i + 1, fields[i]);
     if (is_time) {
@@ -126,10 +164,10 @@ Row row_of(const TextLine& line, const std::string& file, bool timed) {
 
 Eigen::Isometry3d pose_of(const Row& row, Form form) {
   const std::vector<double>& v = row.numbers;
-  if (form == Form::kEuroc) {
+  if (form == Form::kCommas) {
     return internal::pose_of_quaternion({v[0], v[1], v[2], v[4], v[5], v[6], v[3]}, row.where);
   }
-  if (form == Form::kTum || form == Form::kTumCommas) {
+  if (form == Form::kTum) {
     return internal::pose_of_quaternion({v[0], v[1], v[2], v[3], v[4], v[5], v[6]}, row.where);
   }
   if (v.size() == 16 && !(v[12] == 0.0 && v[13] == 0.0 && v[14] == 0.0 && v[15] == 1.0)) {
@@ -158,10 +196,11 @@ std::vector<Row> joined_blocks(const std::vector<Row>& rows, const std::string& 
   return joined;
 }
 
-std::vector<Row> rows_of(const std::vector<TextLine>& lines, const std::string& file, Form form) {
+std::vector<Row> rows_of(const std::vector<TextLine>& lines, const std::string& file, Form form,
+                         const Columns& columns) {
   std::vector<Row> rows;
   for (const TextLine& line : lines) {
-    rows.push_back(row_of(line, file, is_timed(form)));
+    rows.push_back(row_of(line, file, form, columns));
     if (rows.back().numbers.size() == rows.front().numbers.size()) continue;
     throw InputError(rows.back().where,
                      std::to_string(fields_of(line.text).size()) + " columns, must be " +
@@ -238,6 +277,15 @@ void drop_names(std::vector<TextLine>& lines) {
   }
 }
 
+/// EuRoC counts nanoseconds; who writes others with commas between has TUM's columns.
+Columns unnamed_columns(const std::vector<Row>& rows, const std::string& file,
+                        std::vector<std::string>& notes) {
+  const bool euroc = unit_of(rows).seconds < kMicrosecond;
+  notes.push_back(file + " names no columns and is read as t, x, y, z, " +
+                  (euroc ? "qw, qx, qy, qz" : "qx, qy, qz, qw"));
+  return euroc ? kEurocColumns : kTumColumns;
+}
+
 }  // namespace
 
 TrajectoryFile read_trajectory_file(const std::filesystem::path& path) {
@@ -245,26 +293,26 @@ TrajectoryFile read_trajectory_file(const std::filesystem::path& path) {
   auto lines = data_lines(text);
   if (lines.empty()) throw InputError(file, "has no poses", "write or copy it again");
   drop_names(lines);
-  auto form = form_of(text, lines.front().text);
+  const std::string_view first = lines.front().text;
+  const auto form = form_of(first);
   if (!form) {
     throw InputError(
         where_in(file, lines.front().number),
-        std::to_string(fields_of(lines.front().text).size()) +
+        std::to_string(fields_of(first).size()) +
             " columns, must be 12 (KITTI) or 8 (TUM), or those of EuRoC or 4x4 matrices",
         "name a trajectory in one of these formats");
   }
   require_named_form(path, *form, lines.front());
   TrajectoryFile result;
-  std::vector<Row> rows = rows_of(lines, file, *form);
+  const bool commas = *form == Form::kCommas;
+  const auto named = commas ? named_columns(text, first, file) : std::nullopt;
+  std::vector<Row> rows = rows_of(lines, file, *form, named.value_or(kEurocColumns));
+  if (commas && !named) {
+    rows = rows_of(lines, file, *form, unnamed_columns(rows, file, result.notes));
+  }
   if (is_timed(*form)) {
     const TimeUnit unit = unit_of(rows);
     if (unit.seconds < 1.0) result.notes.push_back(file + " is stamped in " + unit.name);
-    if (has_commas(lines.front().text) && !named_form(text, lines.front().text)) {
-      // EuRoC counts nanoseconds; who writes others with commas between has TUM's columns.
-      form = unit.seconds < kMicrosecond ? Form::kEuroc : Form::kTumCommas;
-      result.notes.push_back(file + " names no columns and is read as t, x, y, z, " +
-                             (*form == Form::kEuroc ? "qw, qx, qy, qz" : "qx, qy, qz, qw"));
-    }
     put_in_order(rows, file, result.notes);
     for (const Row& row : rows) result.trajectory.times.push_back(row.time * unit.seconds);
   }

@@ -204,6 +204,22 @@ TEST_F(EvaluatedRun, EquallyLongTrajectoriesAreAssociatedRowByRow) {
   EXPECT_NEAR(evaluation.pair_summary->length->mean, 0.5, 1e-12);
 }
 
+TEST_F(EvaluatedRun, AnOffsetThatCountsForNothingOrLeadsAstrayIsSaid) {
+  EvaluationRequest request;
+  request.estimate = file("e.kitti", format_kitti({{}, straight_drive(4, 1.5)}));
+  Trajectory timed{{1.0, 2.0, 3.0, 4.0}, straight_drive(4, 1.0)};
+  request.reference = file("truth.tum", format_tum(timed));
+  request.time.offset_s = 100.0;
+  const Evaluation evaluation = evaluate_files(request);
+  ASSERT_EQ(evaluation.notes.size(), 1U);
+  expect_contains(evaluation.notes.front(), "the offset counts for nothing");
+  EXPECT_FALSE(evaluation.offset_s.has_value());
+  request.estimate = request.reference;
+  const auto message = input_error_of([&] { (void)evaluate_files(request); });
+  expect_contains(message, "(101.000 to 104.000 s, the offset of 100.000 s added, against 1.000");
+  expect_contains(message, "correct --offset");
+}
+
 TEST_F(EvaluatedRun, SizesThatDifferWithoutPairsNameBothAndTheCure) {
   const auto estimate = file("e.kitti", format_kitti(estimate_));
   const auto poses = file("poses.txt", format_kitti(reference_));

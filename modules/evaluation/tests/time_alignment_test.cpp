@@ -43,6 +43,13 @@ TEST(Resampled, InterpolatesBetweenRows) {
   }
 }
 
+TEST(Resampled, TakesNoRowFartherThanAsked) {
+  const Trajectory reference = drive(0.0, 20.0, 0.1);
+  EXPECT_EQ(resampled(reference, {0.05, 0.11}, {0.0, 0.02}).trajectory.times,
+            (std::vector<double>{0.11}));
+  EXPECT_EQ(resampled(reference, {0.05, 0.11}, {}).trajectory.times.size(), 2U);
+}
+
 TEST(Resampled, BridgesNoGapUnlessAsked) {
   const Trajectory reference = drive(0.0, 20.0, 1.0);
   EXPECT_EQ(resampled(reference, {0.5, 1.0}, {}).trajectory.times, (std::vector<double>{1.0}));

@@ -44,6 +44,24 @@ TEST_F(TrajectoryForms, CommasWithTheScalarLastAreToldByTheirNames) {
   EXPECT_NEAR(Eigen::Quaterniond(file.trajectory.poses[0].linear()).w(), 0.6, 1e-9);
 }
 
+TEST_F(TrajectoryForms, ColumnsAreTakenByTheirNamesWhereverTheyStand) {
+  const TrajectoryFile file =
+      read("frame,qw,qx,qy,qz,time,y,x,z\n7,0.6,0.8,0,0,0.5,2,1,3\n8,0.6,0.8,0,0,0.6,5,4,6\n");
+  EXPECT_EQ(file.trajectory.poses.at(1).translation(), Eigen::Vector3d(4, 5, 6));
+  EXPECT_NEAR(file.trajectory.times.at(1), 0.6, 1e-12);
+  EXPECT_NEAR(Eigen::Quaterniond(file.trajectory.poses[0].linear()).w(), 0.6, 1e-9);
+}
+
+TEST_F(TrajectoryForms, NamesOfAnythingElseAreRefused) {
+  try {
+    static_cast<void>(read("index1,index2,t1,t2,qw,qx,qy,qz,tx,ty,tz\n0,1,0,1,1,0,0,0,0,0,1\n"));
+    ADD_FAILURE() << "pairs are no trajectory";
+  } catch (const InputError& error) {
+    EXPECT_NE(std::string(error.what()).find("names columns, but no time"), std::string::npos)
+        << error.what();
+  }
+}
+
 TEST_F(TrajectoryForms, CommasWithoutNamesAreToldByTheUnitOfTheTime) {
   const TrajectoryFile tum = read("0.5,0,0,0,0.8,0,0,0.6\n0.6,0,0,0,0.8,0,0,0.6\n");
   EXPECT_NEAR(Eigen::Quaterniond(tum.trajectory.poses[0].linear()).w(), 0.6, 1e-9);

@@ -11,8 +11,8 @@ namespace oneac {
 /// How poses of two files belong together in time.
 struct TimeAlignment {
   double offset_s = 0.0;  ///< added to the times of the estimate [s]
-  /// [s] a row of the reference may be so far away; empty: association.h's tolerance. Poses are
-  /// interpolated between rows at most kLongestGap, or twice this, apart
+  /// [s] the nearest row of the reference may be so far away; empty: association.h's tolerance, or
+  /// farther where poses are interpolated: between rows at most kLongestGap, or twice this, apart
   std::optional<double> max_difference_s;
 };
 
