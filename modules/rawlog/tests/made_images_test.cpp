@@ -57,8 +57,9 @@ TEST_F(MadeImagesBesideALog, ThoseOfAnEarlierImportStayWhereTheNextIsRefused) {
 TEST_F(MadeImagesBesideALog, AreOfOneLogEvenWhereItIsGone) {
   MadeImages(log()).keep();
   EXPECT_NO_THROW(MadeImages{log()}) << "somebody took the log away";
-  EXPECT_NE(test::input_error([&] { MadeImages made(log().parent_path() / "x.log"); })
-                .find("not of an import of this log"),
+  EXPECT_NE(test::input_error([&] {
+              MadeImages made(log().parent_path() / "x.log");
+            }).find("not of an import of this log"),
             std::string::npos);
 }
 

@@ -99,10 +99,13 @@ void pave(RandomNumbers& random, DecalCanvas& road, double from_y, double to_y, 
 /// Joints of slabs that all look alike.
 void paint_joints(DecalCanvas& road, double from_y, double to_y, double length) {
   constexpr double kDark = -40.0;
-  for (double x = 0.0; x < length; x += kSlab) {
-    road.rectangle({x, from_y, kJoint, to_y - from_y, kDark});
+  const auto joints = [](double way) { return static_cast<int>(std::ceil(way / kSlab)); };
+  for (int i = 0; i < joints(length); ++i) {
+    road.rectangle({i * kSlab, from_y, kJoint, to_y - from_y, kDark});
   }
-  for (double y = from_y; y < to_y; y += kSlab) road.rectangle({0.0, y, length, kJoint, kDark});
+  for (int i = 0; i < joints(to_y - from_y); ++i) {
+    road.rectangle({0.0, from_y + i * kSlab, length, kJoint, kDark});
+  }
 }
 
 void repair(RandomNumbers& random, DecalCanvas& road, double length) {

@@ -10,7 +10,8 @@ namespace oneac {
 /// earlier one, and what is nobody's import stays.
 class MadeImages {
  public:
-  /// @throws InputError where the folder holds files that are of no import of this log, or cannot be
+  /// @throws InputError where the folder holds files that are of no import of this log, or cannot
+  /// be
   ///         written to
   explicit MadeImages(const std::filesystem::path& log);
   MadeImages(const MadeImages&) = delete;

@@ -140,6 +140,7 @@ bool BagDrive::is_complete() const {
 void BagDrive::leave_strays_out(const std::string& topic, std::vector<BagImage>& images,
                                 ImportReport& report) {
   std::vector<MessageTime> times;
+  times.reserve(images.size());
   for (const BagImage& image : images) times.push_back({image.time_s, image.received_s});
   const std::vector<StrayStamp> strays = stray_stamps(times);
   if (strays.empty()) return;

@@ -85,7 +85,7 @@ void require_consistent(const RosImage& image, std::size_t bytes_of_pixel) {
 }
 
 cv::Mat with_swapped_bytes(const cv::Mat& pixels) {
-  const cv::Mat swapped = pixels.clone();
+  cv::Mat swapped = pixels.clone();
   swapped.reshape(1).forEach<std::uint16_t>([](std::uint16_t& value, const int*) {
     value = static_cast<std::uint16_t>(value << 8U | value >> 8U);
   });
@@ -126,7 +126,7 @@ const char* ending_of(const RosCompressedImage& image) {
 
 fs::path BagImages::write(const RosImage& image, const std::string& name) {
   const cv::Mat pixels = pixels_of(image);
-  const fs::path png = folder_ / (name + ".png");
+  fs::path png = folder_ / (name + ".png");
   bool written = false;
   try {
     written = cv::imwrite(png.string(), pixels);
@@ -137,7 +137,7 @@ fs::path BagImages::write(const RosImage& image, const std::string& name) {
 }
 
 fs::path BagImages::write(const RosCompressedImage& image, const std::string& name) {
-  const fs::path path = folder_ / (name + ending_of(image));
+  fs::path path = folder_ / (name + ending_of(image));
   write_file_atomically(
       path, std::string_view(reinterpret_cast<const char*>(image.file.data), image.file.size));
   return path;
