@@ -49,7 +49,7 @@ const std::vector<Row>& rows() {
       {"SlabsThatLookAlike",  // 1.2 m a frame: two slabs
        {"--road", "slabs", "--seed", "2", "--speed", "12", "--camera-height", "1.2", "--tilt-deg",
         "-5", "--frames", "100"},
-       Outcome::kRight},
+       Outcome::kHonest},
       {"SlabsUnderExposureJumps",  // tracks slip back by a slab: a car that turns round in 33 ms
        {"--road",
         "slabs",
@@ -63,6 +63,8 @@ const std::vector<Row>& rows() {
         "10.2",
         "--camera-height",
         "1.91",
+        "--tilt-deg",
+        "5.4",
         "--route",
         "straight",
         "--traffic",
@@ -151,7 +153,7 @@ const std::vector<Row>& rows() {
 
 /// Rows that fail today; each leaves the list with the change that mends it. All rows run with
 /// ONEAC_HARD_DRIVES=all in the environment.
-const std::vector<std::string> kNotYet = {"RainAtNight"};
+const std::vector<std::string> kNotYet = {"RainAtNight", "SlabsUnderExposureJumps"};
 
 constexpr double kLengthBound = 0.03;     // of the true way
 constexpr double kStandingBound_m = 0.1;  // where the true way is short
