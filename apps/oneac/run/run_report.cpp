@@ -226,7 +226,8 @@ void add_car(HtmlPage& page, const DriveRecord& record, const RunOptions& option
   if (record.car_mask.empty()) return;
   page.heading("What belongs to the car");
   page.paragraph(
-      "Dark: what rested in the image below the horizon while the car travelled (mask.png). It was "
+      "Dark: what rested in the image below the horizon while the car travelled, and what its lens "
+      "leaves black (mask.png). It was "
       "learned over the drive and is not used from then on; front_end.features.mask.learn: false "
       "turns this off.");
   const auto picture = car_picture(record, options);
