@@ -45,7 +45,7 @@ std::vector<std::string_view> fields_of(std::string_view line) {
 
 /// Where a comma-separated line has time, x, y, z, qw, qx, qy, qz.
 using Columns = std::array<std::size_t, 8>;
-constexpr Columns kEurocColumns{0, 1, 2, 3, 4, 5, 6, 7}, kTumColumns{0, 1, 2, 3, 7, 4, 5, 6};
+constexpr Columns kInOrder{0, 1, 2, 3, 4, 5, 6, 7};
 
 /// Of a column's name such as "q_RS_w []", "p_RS_R_x [m]", "qw", "tx" or "#timestamp [ns]": its
 /// place in Columns.
@@ -277,13 +277,16 @@ void drop_names(std::vector<TextLine>& lines) {
   }
 }
 
-/// EuRoC counts nanoseconds; who writes others with commas between has TUM's columns.
-Columns unnamed_columns(const std::vector<Row>& rows, const std::string& file,
-                        std::vector<std::string>& notes) {
+/// EuRoC counts nanoseconds; who writes others with commas between has TUM's columns, qw last.
+void read_as_usual(std::vector<Row>& rows, const std::string& file,
+                   std::vector<std::string>& notes) {
   const bool euroc = unit_of(rows).seconds < kMicrosecond;
   notes.push_back(file + " names no columns and is read as t, x, y, z, " +
                   (euroc ? "qw, qx, qy, qz" : "qx, qy, qz, qw"));
-  return euroc ? kEurocColumns : kTumColumns;
+  if (euroc) return;
+  for (Row& row : rows) {
+    std::rotate(row.numbers.begin() + 3, row.numbers.end() - 1, row.numbers.end());
+  }
 }
 
 }  // namespace
@@ -306,10 +309,8 @@ TrajectoryFile read_trajectory_file(const std::filesystem::path& path) {
   TrajectoryFile result;
   const bool commas = *form == Form::kCommas;
   const auto named = commas ? named_columns(text, first, file) : std::nullopt;
-  std::vector<Row> rows = rows_of(lines, file, *form, named.value_or(kEurocColumns));
-  if (commas && !named) {
-    rows = rows_of(lines, file, *form, unnamed_columns(rows, file, result.notes));
-  }
+  std::vector<Row> rows = rows_of(lines, file, *form, named.value_or(kInOrder));
+  if (commas && !named) read_as_usual(rows, file, result.notes);
   if (is_timed(*form)) {
     const TimeUnit unit = unit_of(rows);
     if (unit.seconds < 1.0) result.notes.push_back(file + " is stamped in " + unit.name);

@@ -259,13 +259,14 @@ bool Odometry::is_on_wheels(const TwoView& seen) const {
 
 bool Odometry::turns_back(const TwoView& seen, const FrameStamp& before, const FrameStamp& now) {
   const bool back = seen.status == StepStatus::kOk && seen.pose.t.dot(heading_) < 0.0;
-  const auto expected = scale_.expected(before.time_s, now.time_s);
-  if (!back || seen.status == StepStatus::kNoMotion) {
+  if (!back) {
     back_since_.reset();
     came_to_rest_ = seen.status == StepStatus::kNoMotion;
     return false;
   }
-  if (expected) return expected->least > 0.0;
+  if (const auto expected = scale_.expected(before.time_s, now.time_s)) {
+    return expected->least > 0.0;
+  }
   // Nobody knows the speed: a car that changes its sense is seen at rest between, if it is seen
   // often enough. What lasts is true.
   constexpr double kOften_s = 0.2, kLasts_s = 1.0;

@@ -120,7 +120,7 @@ enum class RoadStatus {
   kNoRoad,         ///< too little of the strip is in both images and not masked
   kNoTexture,      ///< smooth concrete, overexposed or dark: no grey value changes along the road
   kNoCorrelation,  ///< texture, but no length makes the images alike: occluded, spray, no plane
-  kAmbiguous,      ///< another length fits as well: repeating pattern
+  kAmbiguous,      ///< another length fits as well, or one against the direction better: repeats
   kOutOfRange,     ///< the best length lies at the end of what was searched
   kInconsistent,   ///< parts of the strip want different lengths: traffic, or not a plane
 };
