@@ -129,7 +129,8 @@ void StreetRenderer::render_rows(const RayFan& fan, double time_s, int rows,
   std::vector<Face> above;
   if (shader_.mirrors()) above = faces_towards(boxes, below.centre, view_range_m_);
   if (!above.empty()) above.erase(above.begin());  // the ground
-  const FaceRasteriser reflected(below, above, camera_.width, above.empty() ? 0 : rows);
+  // Above a road with nothing beside it the mirror shows sky, not nothing.
+  const FaceRasteriser reflected(below, above, camera_.width, shader_.mirrors() ? rows : 0);
   const PixelPainter mirror(shader_, below, boxes, above, reflected);
   const PixelPainter painter(shader_, fan, boxes, faces, visible,
                              shader_.mirrors() ? &mirror : nullptr);
