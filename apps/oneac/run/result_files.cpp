@@ -1,5 +1,7 @@
 #include "result_files.h"
 
+#include "terminal/own_results.h"
+
 #include "oneac/base/atomic_file.h"
 #include "oneac/base/error.h"
 #include "oneac/base/input_file.h"
@@ -92,13 +94,9 @@ constexpr const char* kCameraFile = "camera.ini";
 constexpr const char* kOfARun = "// used by oneac run";
 
 /// Names that people give their own files, too: a run's have this at their beginning.
-struct Signature {
-  std::string_view name, text;
-};
-constexpr Signature kSignatures[] = {{"trajectory.gpx", "creator=\"oneac"},
-                                     {"trajectory.kml", "<name>oneac</name>"},
-                                     {"files.json", "\"by\": \"oneac"}};
-constexpr std::size_t kBeginning = 400;  // [byte]
+constexpr ResultMark kSignatures[] = {{"trajectory.gpx", "creator=\"oneac"},
+                                      {"trajectory.kml", "<name>oneac</name>"},
+                                      {"files.json", "\"by\": \"oneac"}};
 
 bool begins_with(const std::filesystem::path& file, std::string_view text) {
   return beginning_of(file, text.size()) == text;
@@ -106,9 +104,8 @@ bool begins_with(const std::filesystem::path& file, std::string_view text) {
 
 /// Not what a run has written.
 bool belongs_to_others(std::string_view name, const std::filesystem::path& file) {
-  for (const Signature& signature : kSignatures) {
-    if (name != signature.name) continue;
-    return beginning_of(file, kBeginning).find(signature.text) == std::string::npos;
+  for (const ResultMark& signature : kSignatures) {
+    if (name == signature.name) return !has_mark(file, signature.mark);
   }
   return name == kCameraFile && !begins_with(file, kOfARun);
 }
@@ -155,10 +152,7 @@ bool is_input(const std::filesystem::path& file, const std::vector<std::string>&
 void require_own_result(const std::filesystem::path& file, const EarlierRun& earlier,
                         const std::vector<std::string>& inputs) {
   const std::string another = "name another folder with -o";
-  if (const std::string fault = fault_of_place(file); !fault.empty()) {
-    throw InputError(file.string(), fault + " and has the name of a result",
-                     "take it away, or " + another);
-  }
+  require_result_place(file);
   std::error_code ignored;
   if (!std::filesystem::exists(file, ignored)) return;  // or a link to what will be written
   if (is_input(file, inputs)) {
