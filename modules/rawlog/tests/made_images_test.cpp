@@ -55,7 +55,9 @@ TEST_F(MadeImagesBesideALog, ThoseOfAnEarlierImportStayWhereTheNextIsRefused) {
 }
 
 TEST_F(MadeImagesBesideALog, AreOfOneLogEvenWhereItIsGone) {
-  MadeImages(log()).keep();
+  MadeImages first(log());
+  write(first.folder() / "0.png", "a picture");
+  first.keep();
   EXPECT_NO_THROW(MadeImages{log()}) << "somebody took the log away";
   EXPECT_NE(test::input_error([&] {
               MadeImages made(log().parent_path() / "x.log");

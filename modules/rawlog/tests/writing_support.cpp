@@ -69,8 +69,7 @@ void write_image(const fs::path& file, int width, int height) {
 std::vector<std::string> names_in(const fs::path& folder) {
   std::vector<std::string> names;
   for (const auto& entry : fs::directory_iterator(folder)) {
-    const std::string name = entry.path().filename().string();
-    if (name.front() != '.') names.push_back(name);  // an import marks its images' folder
+    names.push_back(entry.path().filename().string());
   }
   std::sort(names.begin(), names.end());
   return names;

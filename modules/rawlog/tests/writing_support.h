@@ -39,7 +39,7 @@ std::string read_text(const std::filesystem::path& file);
 void write_text(const std::filesystem::path& file, const std::string& text);
 /// A small grey image (.png or .jpg by its name); folders are made.
 void write_image(const std::filesystem::path& file, int width = 64, int height = 48);
-/// Names in a folder without hidden ones, sorted.
+/// Names in a folder, sorted.
 std::vector<std::string> names_in(const std::filesystem::path& folder);
 
 /// What the InputError thrown by the call says; "" when it throws none.

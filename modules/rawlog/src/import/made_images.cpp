@@ -13,7 +13,11 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char* kMark = ".oneac-import";  // in the folder: the name of its log
+/// Holds the name of the log that the folder's images are of; beside the folder, in which there are
+/// images only.
+fs::path mark_of(const fs::path& folder) {
+  return folder.parent_path() / ("." + folder.filename().string() + ".oneac-import");
+}
 
 bool holds_anything(const fs::path& folder) {
   std::error_code error;
@@ -23,7 +27,7 @@ bool holds_anything(const fs::path& folder) {
 /// Those of an earlier import of the log, by their mark; without one by the log beside them.
 bool are_of(const fs::path& log, const fs::path& folder) {
   constexpr std::size_t kLongest = 4096;
-  const std::string marked = beginning_of(folder / kMark, kLongest);
+  const std::string marked = beginning_of(mark_of(folder), kLongest);
   std::error_code error;
   return marked.empty() ? fs::exists(log, error) : marked == log.filename().string();
 }
@@ -32,8 +36,7 @@ bool are_of(const fs::path& log, const fs::path& folder) {
 void remove_leftovers(const fs::path& part) {
   std::error_code error;
   for (const auto& entry : fs::directory_iterator(part, error)) {
-    const bool made = is_image(entry.path()) || entry.path().filename() == kMark;
-    if (entry.is_regular_file(error) && made) fs::remove(entry.path(), error);
+    if (entry.is_regular_file(error) && is_image(entry.path())) fs::remove(entry.path(), error);
   }
   fs::remove(part, error);
   if (!fs::exists(part, error)) return;
@@ -47,7 +50,7 @@ fs::path images_beside(const fs::path& log) {
   return log.parent_path() / (log.stem().string() + "_Images");
 }
 
-MadeImages::MadeImages(const fs::path& log) : destination_(images_beside(log)) {
+MadeImages::MadeImages(const fs::path& log) : log_(log), destination_(images_beside(log)) {
   std::error_code error;
   if (holds_anything(destination_) && !are_of(log, destination_)) {
     throw InputError(destination_.string(), "holds files that are not of an import of this log",
@@ -58,7 +61,6 @@ MadeImages::MadeImages(const fs::path& log) : destination_(images_beside(log)) {
   part_ = destination_.string() + ".part";
   remove_leftovers(part_);
   require_writable_folder(part_);
-  write_file_atomically(part_ / kMark, log.filename().string());
 }
 
 MadeImages::~MadeImages() {
@@ -72,6 +74,7 @@ std::string MadeImages::kept_path(const fs::path& image) const {
 
 void MadeImages::keep() {
   std::error_code error;
+  write_file_atomically(mark_of(images_beside(log_)), log_.filename().string());
   if (!fs::exists(destination_, error)) fs::create_directory(destination_, error);
   for (const auto& entry : fs::directory_iterator(part_, error)) {
     const fs::path place = destination_ / entry.path().filename();

@@ -30,7 +30,7 @@ class MadeImages {
   void keep();
 
  private:
-  std::filesystem::path destination_, part_;
+  std::filesystem::path log_, destination_, part_;
 };
 
 /// <log base>_Images beside the log.
