@@ -170,6 +170,20 @@ TEST(FrontEnd, PredictsThroughABlackImage) {
   EXPECT_EQ(results[1].step->pose.R, results[2].step->pose.R);
 }
 
+TEST(FrontEnd, DoesNotBelieveACarThatTurnsBackInAnInstant) {
+  SimulationOptions options = small_drive();
+  options.frames = 10;
+  const StreetSimulator street(options);
+  FrontEnd front_end{FrontEndOptions{}};
+  ASSERT_TRUE(drive(front_end, street).back().step->metric);
+  CameraFrame before = frame_of(street, 8);
+  before.time_s = frame_of(street, 9).time_s + 0.1;  // 6 m/s ahead, then 6 m/s astern
+  before.index = 10;
+  const FrameResult back = front_end.process(front_end.prepare(std::move(before)));
+  EXPECT_EQ(back.step->status, StepStatus::kPredicted);
+  EXPECT_FALSE(back.step->metric);
+}
+
 TEST(FrontEnd, ReportsAStandingVehicle) {
   const StreetSimulator street(small_drive());
   FrontEnd front_end{FrontEndOptions{}};

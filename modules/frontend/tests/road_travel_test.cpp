@@ -1,7 +1,9 @@
 #include "scale/road_travel.h"
 
+#include "scale/scale.h"
 #include "texture.h"
 
+#include "oneac/frontend/front_end_options.h"
 #include "oneac/geometry/angles.h"
 #include "oneac/geometry/levelling.h"
 
@@ -89,6 +91,34 @@ TEST(RoadTravel, SaysThatARoadOfSlabsRepeats) {
   EXPECT_TRUE(by(Road::kSlabs).repeats);
   EXPECT_FALSE(by(Road::kSlabs).travel.has_value());
   EXPECT_FALSE(by(Road::kAsphalt).repeats);
+}
+
+TEST(RoadTravel, OfARoadThatRepeatedAMomentAgoIsNotBelievedAtOnce) {
+  FrontEndOptions options;
+  options.camera_height = kHeight;
+  Scale scale(options);
+  scale.start({});
+  TwoView step;
+  step.status = StepStatus::kOk;
+  step.focal_px = camera().focal_px();
+  step.pose.t = -kAhead;
+  step.covariance.diagonal().setConstant(1e-6);
+  double time_s = 0.0;
+  const auto look = [&](Road road) {
+    const GreyImage first = view_from(Eigen::Vector3d::Zero(), road);
+    const GreyImage second = view_from(0.9 * kAhead, road);
+    StepInTime in_time;
+    in_time.status = step.status;
+    in_time.begin_s = time_s;
+    in_time.end_s = time_s += 0.1;
+    return scale.measure_directly({RoadImage(first.view()), RoadImage(second.view()), camera(), {}},
+                                  step, {}, {}, -kAhead, in_time);
+  };
+  EXPECT_TRUE(look(Road::kAsphalt).has_value());
+  EXPECT_FALSE(look(Road::kSlabs).has_value());
+  int withheld = 0;
+  while (withheld < 20 && !look(Road::kAsphalt)) ++withheld;
+  EXPECT_EQ(withheld, 5);
 }
 
 TEST(RoadTravel, SaysHowTheCameraLeansAgainstTheRoad) {
