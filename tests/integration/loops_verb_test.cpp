@@ -405,7 +405,7 @@ TEST_F(LogsTogether, LeaveNothingToTheNextRunInTheirFolder) {
   ASSERT_EQ(run({"a", "b"}, "again", {"--loops", "--count", "6"}).exit_code, 0);
   ASSERT_TRUE(fs::exists(folder("again") / "2" / "summary.json"));
   ASSERT_EQ(run({"a"}, "again", {"--count", "6"}).exit_code, 0);
-  EXPECT_FALSE(fs::exists(folder("again") / "2" / "summary.json"));
+  EXPECT_FALSE(fs::exists(folder("again") / "2"));
   EXPECT_FALSE(fs::exists(folder("again") / "loops.csv"));
 }
 
@@ -418,6 +418,8 @@ TEST_F(LogsTogether, AreRefusedInALineWhereTheyCannotBeJoined) {
   };
   refused(run({"a", "b"}, "no", {}), "add --loops");
   refused(run({"a", "a"}, "no", {"--loops"}), "is given twice");
+  fs::create_directory_symlink(folder("a"), folder("linked"));
+  refused(run({"a", "linked"}, "no", {"--loops"}), "is given twice");
   refused(run({"a", "wide"}, "no", {"--loops"}), "its camera is another");
   refused(run({"a", "b"}, "no", {"--loops", "--reference", "poses.txt"}), "belongs to one log");
   refused(run({"a", "b"}, "no", {"--loops", "--gui"}), "shows one drive");

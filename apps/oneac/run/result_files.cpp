@@ -287,7 +287,11 @@ void require_own_results(const ResultFolder& results) {
 }
 
 void clear_of_earlier_run(const std::filesystem::path& folder) {
-  for (const std::filesystem::path& log : folders_of_logs(folder)) clear_folder(log);
+  for (const std::filesystem::path& log : folders_of_logs(folder)) {
+    clear_folder(log);
+    std::error_code not_empty;  // what is not of a run stays, and the folder with it
+    std::filesystem::remove(log, not_empty);
+  }
   clear_folder(folder);
 }
 

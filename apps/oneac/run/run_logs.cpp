@@ -13,7 +13,6 @@
 #include "oneac/base/printable.h"
 #include "oneac/rawlog/rawlog_source.h"
 
-#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <cstddef>
@@ -32,6 +31,12 @@ namespace fs = std::filesystem;
 // are good to.
 constexpr double kSameCamera = 1e-3;
 
+/// By whatever way: the loops of a drive with itself would all be right, and all be its own.
+bool is_one_file(const std::string& a, const std::string& b) {
+  std::error_code missing;
+  return a == b || (fs::equivalent(a, b, missing) && !missing);
+}
+
 void require_logs_that_can_be_joined(const std::vector<std::string>& logs,
                                      const RunOptions& options) {
   if (!options.run.loops) {
@@ -43,9 +48,10 @@ void require_logs_that_can_be_joined(const std::vector<std::string>& logs,
                      "lay the poses beside each log as <log>_poses.txt");
   }
   for (std::size_t i = 1; i < logs.size(); ++i) {
-    if (std::find(logs.begin(), logs.begin() + static_cast<std::ptrdiff_t>(i), logs[i]) !=
-        logs.begin() + static_cast<std::ptrdiff_t>(i)) {
-      throw InputError(logs[i], "is given twice", "name each log once");
+    for (std::size_t k = 0; k < i; ++k) {
+      if (is_one_file(logs[k], logs[i])) {
+        throw InputError(logs[i], "is given twice", "name each log once");
+      }
     }
   }
 }
@@ -99,8 +105,11 @@ void prepare_folders(const std::vector<RunOptions>& logs, const RunOptions& opti
     require_own_results({log.output, learns_camera(log), inputs_of(log)});
   }
   require_own_results({options.output, false, inputs_of(options)});
-  for (const RunOptions& log : logs) clear_of_earlier_run(log.output);
   clear_of_earlier_run(options.output);
+  for (const RunOptions& log : logs) {
+    require_writable_folder(log.output);  // anew: an earlier run's empty folders went
+    clear_of_earlier_run(log.output);
+  }
 }
 
 /// A log that was driven.

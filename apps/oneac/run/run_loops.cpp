@@ -306,6 +306,8 @@ std::string text_about(const GlobalReport& global) {
 }
 
 std::string text_about(const ClosedDrive& closed, const std::optional<Evaluation>& after) {
+  const bool searched = !closed.alone || closed.report.keyframes > 0 || closed.keyframes.empty();
+  if (!searched) return "no loops: the search for them did not come to its end\n";
   std::string text =
       std::to_string(closed.graph.loops.size()) + " loops of " +
       std::to_string(closed.alone ? closed.report.keyframes : closed.keyframes.size()) +
