@@ -7,7 +7,8 @@ Simulated drives of other seeds, cameras, roads and lights, and, with --kitti, 2
 in KITTI's layout (image_0, calib.txt, times.txt, poses.txt) made nastier, with --drawn by several
 changes at once that are drawn from a number. Prints per drive: metric pairs, their way in
 metres against the true one, wrong directions among pairs called ok (beyond 15 deg), the share of
-metric pairs within 2 sigma and the number beyond 5 sigma. Needs python3-numpy and, for --kitti,
+metric pairs within 2 sigma and the number beyond 5 sigma; of pairs called ok the same of direction
+and rotation (off over the root of 2 or 3 degrees of freedom). Needs python3-numpy and, for --kitti,
 python3-opencv. Takes about ten seconds a drive; drives are kept in FOLDER and used again.
 """
 import argparse
@@ -478,10 +479,71 @@ def call(*words):
     return result.returncode, ' | '.join(result.stderr.split('\n')).strip(' |')
 
 
+def true_poses(poses):
+    rows = np.loadtxt(poses).reshape(-1, 3, 4)
+    return [np.vstack([row, [0, 0, 0, 1]]) for row in rows]
+
+
+def in_sigmas(off, covariance):
+    """Mahalanobis distance over the root of its degrees of freedom."""
+    regular = covariance + 1e-14 * np.eye(len(off))
+    return np.sqrt(max(off @ np.linalg.solve(regular, off), 0) / len(off))
+
+
+def rotation_of(row):
+    w, x, y, z = (float(row[key]) for key in ('qw', 'qx', 'qy', 'qz'))
+    return np.array([[1 - 2 * (y * y + z * z), 2 * (x * y - z * w), 2 * (x * z + y * w)],
+                     [2 * (x * y + z * w), 1 - 2 * (x * x + z * z), 2 * (y * z - x * w)],
+                     [2 * (x * z - y * w), 2 * (y * z + x * w), 1 - 2 * (x * x + y * y)]])
+
+
+def angles_in_sigmas(row, step, covariance):
+    """Of the direction and of the rotation of one pair, true step and 6x6 covariance beside it."""
+    t = np.array([float(row[key]) for key in ('tx', 'ty', 'tz')])
+    told, truth = np.linalg.norm(t), np.linalg.norm(step[:3, 3])
+    across = np.linalg.svd((t / told).reshape(1, 3))[2][1:]
+    off = across @ (step[:3, 3] / truth - t / told)
+    turn = step[:3, :3] @ rotation_of(row).T
+    turned = np.array([turn[2, 1] - turn[1, 2], turn[0, 2] - turn[2, 0], turn[1, 0] - turn[0, 1]]) / 2
+    return (in_sigmas(off, across @ covariance[3:, 3:] @ across.T / told ** 2),
+            in_sigmas(turned, covariance[:3, :3]))
+
+
+def judge_angles(out, poses):
+    """Counts over the pairs of a run that are called ok and moved, by its covariance.csv."""
+    true = true_poses(poses)
+    entries = {(row['index1'], row['index2']): row
+               for row in csv.DictReader((out / 'covariance.csv').open())}
+    count = dict(ok=0, direction_within_2=0, direction_beyond_5=0, metric_direction_beyond_5=0,
+                 rotation_within_2=0, rotation_beyond_5=0)
+    for row in csv.DictReader((out / 'relative_poses.csv').open()):
+        step = np.linalg.inv(true[int(row['index2'])]) @ true[int(row['index1'])]
+        moved = row['status'] == 'ok' and np.linalg.norm(step[:3, 3]) > 0.05
+        entry = entries.get((row['index1'], row['index2']))
+        if not moved or entry is None or not entry['c00']:
+            continue
+        covariance = np.array([[float(entry[f'c{min(a, b)}{max(a, b)}']) for b in range(6)]
+                               for a in range(6)])
+        direction, rotation = angles_in_sigmas(row, step, covariance)
+        count['ok'] += 1
+        count['direction_within_2'] += direction < 2
+        count['direction_beyond_5'] += direction > 5
+        count['metric_direction_beyond_5'] += direction > 5 and row['metric'] == '1'
+        count['rotation_within_2'] += rotation < 2
+        count['rotation_beyond_5'] += rotation > 5
+    return count
+
+
+def angles_text(count):
+    ok = max(count['ok'], 1)
+    return (f"of {count['ok']} ok direction {100 * count['direction_within_2'] / ok:.0f} % / "
+            f"{count['direction_beyond_5']} ({count['metric_direction_beyond_5']} metric), "
+            f"rotation {100 * count['rotation_within_2'] / ok:.0f} % / {count['rotation_beyond_5']}")
+
+
 def judge(pairs, poses):
     """Counts over the rows of a relative_poses.csv."""
-    rows = np.loadtxt(poses).reshape(-1, 3, 4)
-    true = [np.vstack([row, [0, 0, 0, 1]]) for row in rows]
+    true = true_poses(poses)
     count = dict(pairs=0, metric=0, way=0.0, true_way=0.0, wrong=0, within_2=0, beyond_5=0)
     for row in csv.DictReader(pairs.open()):
         step = np.linalg.inv(true[int(row['index2'])]) @ true[int(row['index1'])]
@@ -512,10 +574,10 @@ def run(oneac, log, poses, out, *flags):
     pairs = out / 'relative_poses.csv'
     if not pairs.exists():
         return None, f'exit {code}: {said}'
-    c = judge(pairs, poses)
+    c = {**judge(pairs, poses), **judge_angles(out, poses)}
     return c, (f"metric {c['metric']} of {c['pairs']}, {c['way']:.1f} of {c['true_way']:.1f} m, "
                f"wrong {c['wrong']}, within 2 sigma {share_within_2(c):.0f} %, "
-               f"beyond 5 sigma {c['beyond_5']}" + (f'; {said}' if said else ''))
+               f"beyond 5 sigma {c['beyond_5']}; {angles_text(c)}" + (f'; {said}' if said else ''))
 
 
 def report(name, oneac, log, poses, out):

@@ -10,10 +10,11 @@ is beyond 5 sigma, ** where fewer than 85 % are within 2 sigma. Takes about ten 
 drives are kept in FOLDER and used again. Needs python3-numpy.
 """
 import argparse
+import collections
 import pathlib
 import random
 
-from nasty_drives import call, run, share_within_2
+from nasty_drives import angles_text, call, run, share_within_2
 
 
 def some(r, share, *flags):
@@ -117,7 +118,7 @@ def main():
                         help='of the metres; without it the camera\'s height')
     parser.add_argument('--road', choices=['slabs', 'wet'], help='of every drive')
     asked = parser.parse_args()
-    total = dict(metric=0, within_2=0, beyond_5=0, pairs=0, wrong=0)
+    total = collections.Counter()
     for number in range(asked.first, asked.first + asked.count):
         flags = drive_flags(number, asked.source, asked.road)
         name = '-'.join([str(number), *filter(None, (asked.source, asked.road))])
@@ -127,10 +128,10 @@ def main():
         count, text = run(asked.oneac, drive / 'simulated.rawlog', drive / 'poses.txt', out,
                           *run_flags(flags, asked.source))
         print(f"{number:4} {mark(count):3} {' '.join(flags)} | {text}", flush=True)
-        for key in total if count else ():
-            total[key] += count[key]
+        total.update(count or {})
     print(f"all: metric {total['metric']} of {total['pairs']}, wrong {total['wrong']}, "
-          f"within 2 sigma {share_within_2(total):.1f} %, beyond 5 sigma {total['beyond_5']}")
+          f"within 2 sigma {share_within_2(total):.1f} %, beyond 5 sigma {total['beyond_5']}; "
+          f"{angles_text(total)}")
 
 
 if __name__ == '__main__':
