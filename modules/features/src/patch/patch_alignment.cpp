@@ -26,6 +26,8 @@ constexpr double kMeanAbsolute = 1.2533;  // σ of a normal variable over its me
 // before it: 1 / Σ k² of the binomial 3×3 kernel. Every second row alone carries half as much: each
 // row of the image has the same weight in their sum, (1 + 1) / 4 or 2 / 4.
 constexpr double kCorrelation = 256.0 / 36.0;
+// [-] Of what a patch tells along an axis, where noise has it all: the axis counts for nothing.
+constexpr double kLeastLeft = 0.05;
 
 double noise_share(const PatchWindow& window) {
   return 1.0 / static_cast<double>(window.row_step);
@@ -159,6 +161,39 @@ void set_sigmas(const SpdInverse<kAffineParameters>& inverse, const AnchoredPatc
   quality.point_sigma = residual_sigma * std::sqrt(point / 2.0) * scale;
 }
 
+/// Variance that noise gives a component of the template's gradient: half of that of the
+/// residuals', as the other image has as much. Noise is rough; what the warp does not explain is
+/// smooth.
+double gradient_noise(const PatchWindow& window, const float* weight, const float* residual) {
+  double squares = 0.0, weights = 0.0;
+  for (std::size_t i = 1; i + 1 < window.size; ++i) {
+    const bool in_a_row = window.x[i + 1] - window.x[i - 1] == 2.0F;
+    if (!in_a_row || weight[i - 1] == 0.0F || weight[i + 1] == 0.0F) continue;
+    const auto slope = 0.5 * static_cast<double>(residual[i + 1] - residual[i - 1]);
+    squares += static_cast<double>(weight[i]) * slope * slope;
+    weights += static_cast<double>(weight[i]);
+  }
+  return weights > 0.0 ? 0.5 * squares / weights : 0.0;
+}
+
+/// By how much noise in the gradient raises the variance of the point. A smooth slope under noise
+/// has the gradient of a corner, and determines nothing across it: from the point's information,
+/// along both of its axes, goes what noise alone adds (Fuller, Measurement Error Models, section
+/// 2.2: least squares with a noisy Jacobian, N⁻¹ becomes (N − D)⁻¹ N (N − D)⁻¹).
+/// @param noise  what noise adds to the normal matrix at the two diagonal entries of the point
+double growth_by_noise(const SpdInverse<kAffineParameters>& inverse, double noise) {
+  Eigen::Matrix2d covariance;
+  covariance << inverse(4, 4), inverse(4, 5), inverse(5, 4), inverse(5, 5);
+  const double middle = 0.5 * covariance.trace();
+  const double half = std::sqrt(std::max(0.0, middle * middle - covariance.determinant()));
+  double variance = 0.0;
+  for (const double along : {middle + half, middle - half}) {
+    const double left = std::max(1.0 - noise * along, kLeastLeft);
+    variance += along / (left * left);
+  }
+  return variance / (2.0 * middle);
+}
+
 /// The second round: weights from the residuals of the first.
 bool refine_robustly(Problem<kAffineParameters>& problem, PatchWarp& warp, double rate,
                      AlignmentQuality& quality) {
@@ -174,8 +209,11 @@ bool refine_robustly(Problem<kAffineParameters>& problem, PatchWarp& warp, doubl
   for (std::size_t i = 0; i < window.size; ++i) kept += weights[i];
   if (!(kept > 0.5F * window.weight_sum)) return false;
   const double variance = static_cast<double>(problem.sums.squares / kept);
+  const double noise =
+      static_cast<double>(kept) * gradient_noise(window, weights, problem.residual);
   set_sigmas(problem.inverse, problem.patch,
              std::sqrt(variance * kCorrelation * noise_share(window)), quality);
+  quality.point_sigma *= std::sqrt(growth_by_noise(problem.inverse, noise));
   const double radius = static_cast<double>(window.radius) * level_scale(problem.patch.level);
   quality.perspective = perspective_shift(problem.normal, radius);
   return true;
