@@ -47,6 +47,12 @@ StepResult step_result(const FrameStamp& before, const FrameStamp& now, const Tw
   return step;
 }
 
+/// The step with the covariance that is stated: neighbouring tracks share errors.
+StepResult with_shared_errors(StepResult step, const TwoView& seen, const StepLength& length) {
+  step.covariance = step_covariance(step, seen.covariance + seen.shared_covariance, length.sigma_m);
+  return step;
+}
+
 double share_of_inliers(const TwoView& seen) {
   const auto points = static_cast<double>(seen.pair.size());
   return points > 0.0 ? static_cast<double>(seen.inlier_count) / points : 1.0;
@@ -76,6 +82,7 @@ TwoView refused(TwoView seen, const RelativePose& last_motion) {
   seen.pose = last_motion;
   if (seen.pose.t.norm() > 0.0) seen.pose.t.normalize();
   seen.covariance.setZero();
+  seen.shared_covariance.setZero();
   seen.set_inliers({});
   return seen;
 }
@@ -87,6 +94,7 @@ TwoView resting(TwoView seen) {
   seen.status = StepStatus::kNoMotion;
   seen.pose = {};
   seen.covariance.setZero();
+  seen.shared_covariance.setZero();
   std::vector<bool> inliers;
   for (const Correspondence& ac : seen.pair.correspondences) {
     const double sigma = std::max(ac.point_sigma, kPointSigma_px / seen.focal_px);
@@ -189,8 +197,8 @@ FrameResult Odometry::integrate(const FrameStamp& now, TwoView found, const Road
   if (scale_.map_is_refuted()) map_.forget();
   const StepResult step = step_result(before, now, seen, length, map_.segment());
   if (in_time.direct && length.metric) attitude_.see_road(in_time.direct->roll_right);
-  attitude_.follow(step);
-  FrameResult result = moved(now, seen, step);
+  attitude_.follow(step);  // which counts for itself what lasts from step to step
+  FrameResult result = moved(now, seen, with_shared_errors(step, seen, length));
   if (begun) result.rescaled *= begun->factor;
   return result;
 }

@@ -1,5 +1,7 @@
 #include "landmark_pose.h"
 
+#include "oneac/geometry/shared_errors.h"
+
 #include <Eigen/Cholesky>
 #include <Eigen/Geometry>
 
@@ -103,10 +105,21 @@ RelativePose moved_by(const RelativePose& T, const Vector6& step) {
   return {rotation_from_vector(step.head<3>()) * T.R, T.t + step.tail<3>()};
 }
 
+const Eigen::Vector2d& in_first(const LandmarkSight& sight) {
+  return sight.of_first ? sight.x : sight.other;
+}
+
+Eigen::AlignedBox2d seen_in_first(const std::vector<LandmarkSight>& sights) {
+  Eigen::AlignedBox2d box;
+  for (const LandmarkSight& sight : sights) box.extend(in_first(sight));
+  return box;
+}
+
 /// Inliers, cost and covariance where the pose is.
 void judge(const std::vector<LandmarkSight>& sights, double noise, LandmarkPose& pose) {
   double squares = 0.0;
-  Matrix6 H = Matrix6::Zero();
+  Matrix6 H = Matrix6::Zero(), V = Matrix6::Zero();
+  GradientsOfCells<6> cells(seen_in_first(sights));
   for (const LandmarkSight& sight : sights) {
     const Term term = term_of(sight, pose.T_2_1, noise);
     const bool inlier = term.squared() < kGate * kGate;
@@ -116,6 +129,9 @@ void judge(const std::vector<LandmarkSight>& sights, double noise, LandmarkPose&
     ++(sight.of_first ? pose.first_side : pose.second_side);
     squares += term.squared();
     H += term.J.transpose() * term.J;
+    const Vector6 gradient = term.J.transpose() * term.r;
+    V += gradient * gradient.transpose();
+    cells.add(in_first(sight), gradient);
   }
   const double count = static_cast<double>(pose.first_side + pose.second_side);
   const Eigen::LDLT<Matrix6> solver(H);
@@ -124,6 +140,8 @@ void judge(const std::vector<LandmarkSight>& sights, double noise, LandmarkPose&
   // Both landmarks of a correspondence say the same once: their errors in the image are one.
   constexpr double kSaidTwice = 2.0;
   pose.covariance = kSaidTwice * std::max(scatter, 1.0) * solver.solve(Matrix6::Identity());
+  const Matrix6 half = solver.solve(cells.shared(kSaidTwice * V));
+  pose.covariance += solver.solve(half.transpose());
   pose.covariance = 0.5 * (pose.covariance + pose.covariance.transpose()).eval();
   pose.usable = pose.covariance.allFinite() && pose.covariance.diagonal().minCoeff() > 0.0;
 }

@@ -24,7 +24,8 @@ struct LandmarkPose {
   std::size_t first_side = 0;  ///< inliers with a landmark of the first view
   std::size_t second_side = 0;
   double cost = 0.0;  ///< Σ of squares in standard deviations, each bounded by the gate
-  /// Of (w, t): R ← exp([w]×) R, t ← t + v; never less than the noise that was assumed.
+  /// Of (w, t): R ← exp([w]×) R, t ← t + v; never less than the noise that was assumed,
+  /// and with what neighbours in the image share (GradientsOfCells).
   Eigen::Matrix<double, 6, 6> covariance = Eigen::Matrix<double, 6, 6>::Zero();
   bool usable = false;
 };

@@ -190,7 +190,9 @@ void minimise(const TwoViewTerms& terms, const RelativePose& start, const Direct
   result.status = summary.termination_type == ceres::CONVERGENCE ? RefineStatus::kConverged
                                                                  : RefineStatus::kStopped;
   result.final_cost = summary.final_cost;
-  result.information = two_view_information(terms, refined) + information_of(prior, refined.t);
+  const auto told = two_view_information(terms, refined, information_of(prior, refined.t));
+  result.information = told.information;
+  result.shared_covariance = told.shared;
   result.pose = refined;
 }
 

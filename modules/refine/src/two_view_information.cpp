@@ -2,18 +2,21 @@
 
 #include "oneac/geometry/essential.h"
 #include "oneac/geometry/robust_loss.h"
+#include "oneac/geometry/shared_errors.h"
 
 #include <Eigen/Cholesky>
 #include <Eigen/Geometry>
 #include <Eigen/LU>
 
 #include <algorithm>
+#include <cstddef>
 #include <vector>
 
 namespace oneac {
 namespace {
 
 using Matrix5 = Eigen::Matrix<double, 5, 5>;
+using Matrix6 = Eigen::Matrix<double, 6, 6>;
 using Matrix65 = Eigen::Matrix<double, 6, 5>;
 
 // A smaller ratio of pivots: some direction is not observed at all.
@@ -44,12 +47,14 @@ struct Linearised {
   Eigen::Matrix<double, N, 1> r;
   Eigen::Matrix<double, N, 5> J;
   double weight = 0.0;
+  Eigen::Vector2d x = Eigen::Vector2d::Zero();  ///< where it lies in the first image
 };
 
 template <int N>
 Linearised<N> linearised(const EpipolarTerm<N>& term, const RelativePose& pose,
-                         const Matrix65& basis, double loss_sigmas) {
+                         const Matrix65& basis, double loss_sigmas, const Eigen::Vector2d& x) {
   Linearised<N> result;
+  result.x = x;
   result.r = term.r;
   for (int k = 0; k < N; ++k) result.J.row(k) = pose_derivative(term.dE[k], pose) * basis;
   result.weight = cauchy_weight(term.r.squaredNorm(), loss_sigmas * loss_sigmas);
@@ -83,6 +88,9 @@ struct Common {
 struct Sandwich {
   Matrix5 M = Matrix5::Zero();
   Matrix5 V = Matrix5::Zero();
+  GradientsOfCells<5> cells;
+
+  explicit Sandwich(const Eigen::AlignedBox2d& box) : cells(box) {}
 
   template <int N>
   void add(const Terms<N>& terms, const Common& common, double loss_sigmas) {
@@ -100,48 +108,63 @@ struct Sandwich {
     const MatrixN kept =
         MatrixN::Identity() - leverage * std::min(1.0, kMostLeverage / leverage.trace());
     const Eigen::Matrix<double, 1, 5> freed = (kept.inverse() * term.r).transpose() * term.J;
+    cells.add(term.x, term.weight * freed.transpose());
     const double by_others = std::min(kOfOthers * leverage.trace(), 1.0) * common.variance();
     V += squared_weight * (freed.transpose() * freed + by_others * term.J.transpose() * term.J) +
          kSmallestVariance * term.J.transpose() * term.J;
   }
 };
 
+/// What a pose that follows from the terms and a prior has of gradients that vary so.
+Matrix6 covariance_of(const Matrix5& gradients, const Matrix5& curvature, const Matrix65& basis) {
+  const Eigen::LDLT<Matrix5> factor(curvature);
+  if (factor.info() != Eigen::Success || !(factor.rcond() > kSingular)) return Matrix6::Zero();
+  const Matrix5 half = factor.solve(gradients);
+  const Matrix5 covariance = factor.solve(half.transpose());
+  if (!covariance.allFinite()) return Matrix6::Zero();
+  return basis * (0.5 * (covariance + covariance.transpose())) * basis.transpose();
+}
+
 }  // namespace
 
-Eigen::Matrix<double, 6, 6> two_view_information(const TwoViewTerms& terms,
-                                                 const RelativePose& pose) {
+TwoViewInformation two_view_information(const TwoViewTerms& terms, const RelativePose& pose,
+                                        const Matrix6& of_prior) {
   const Eigen::Matrix3d E = essential_matrix(pose);
   const Matrix65 basis = tangent_basis(pose.t);
   Terms<1> points;
   Terms<2> affinities;
+  Eigen::AlignedBox2d box;
   for (std::size_t i = 0; i < terms.acs.size(); ++i) {
     const AffineCorrespondence& ac = terms.acs[i];
+    box.extend(ac.x1);
     if (terms.with_point[i]) {
       points.push_back(
-          linearised(point_term(E, ac, terms.noise[i]), pose, basis, terms.loss_sigmas));
+          linearised(point_term(E, ac, terms.noise[i]), pose, basis, terms.loss_sigmas, ac.x1));
     }
     if (terms.with_affine[i]) {
       affinities.push_back(
-          linearised(affine_term(E, ac, terms.noise[i]), pose, basis, terms.loss_sigmas));
+          linearised(affine_term(E, ac, terms.noise[i]), pose, basis, terms.loss_sigmas, ac.x1));
     }
   }
   Common common;
   common.add(points);
   common.add(affinities);
   const Eigen::LDLT<Matrix5> factor(common.normal);
-  if (factor.info() != Eigen::Success || !(factor.rcond() > kSingular))
-    return Eigen::Matrix<double, 6, 6>::Zero();
+  TwoViewInformation result{of_prior, Matrix6::Zero()};
+  if (factor.info() != Eigen::Success || !(factor.rcond() > kSingular)) return result;
   common.inverse = factor.solve(Matrix5::Identity());
-  Sandwich sums;
+  Sandwich sums(box);
   sums.add(points, common, terms.loss_sigmas);
   sums.add(affinities, common, terms.loss_sigmas);
   const Eigen::LDLT<Matrix5> V(sums.V);
-  if (V.info() != Eigen::Success || !(V.rcond() > kSingular))
-    return Eigen::Matrix<double, 6, 6>::Zero();
+  if (V.info() != Eigen::Success || !(V.rcond() > kSingular)) return result;
   const Matrix5 information = sums.M * V.solve(sums.M);
-  if (!information.allFinite()) return Eigen::Matrix<double, 6, 6>::Zero();
+  if (!information.allFinite()) return result;
   const Matrix5 symmetric = 0.5 * (information + information.transpose());
-  return basis * symmetric * basis.transpose();
+  result.information += basis * symmetric * basis.transpose();
+  result.shared = covariance_of(sums.cells.shared(sums.V),
+                                sums.M + basis.transpose() * of_prior * basis, basis);
+  return result;
 }
 
 }  // namespace oneac

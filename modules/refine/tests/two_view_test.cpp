@@ -312,5 +312,43 @@ TEST(RefineTwoView, InformationOfAFewNearPointsIsNotThatOfTheirResiduals) {
   EXPECT_LT(errors[190], 15.0) << "one of twenty; of chi-squared 11";
 }
 
+/// A street whose second view was taken row by row by a camera that turns: each row sees it turned
+/// by its share of what the camera turns from the first row to the last.
+test::TwoViewScene rolling_street(SceneGenerator& generator, double turn_rad) {
+  test::TwoViewScene scene = test::street(generator, 400, {0.2, 0.05});
+  const Eigen::Vector3d axis =
+      turn_rad * Eigen::Vector3d(generator.normal(1.0), generator.normal(1.0), 0.0);
+  for (AffineCorrespondence& ac : scene.acs) {
+    const Eigen::Vector3d seen = rotation_from_vector(ac.x2.y() * axis) * ac.x2.homogeneous();
+    ac.x2 = seen.hnormalized();
+  }
+  return scene;
+}
+
+/// eᵀ C⁻¹ e of the direction, C with what neighbours share.
+double error_of_direction(const test::TwoViewScene& scene) {
+  const RefineResult result = refine(scene, scene.truth, points_alone());
+  Eigen::Matrix<double, 3, 2> across;
+  across.col(0) = result.pose.t.unitOrthogonal();
+  across.col(1) = result.pose.t.cross(across.col(0));
+  Eigen::Matrix<double, 6, 6> regular = result.information;
+  regular.bottomRightCorner<3, 3>() += regular.trace() * result.pose.t * result.pose.t.transpose();
+  const Eigen::Matrix<double, 6, 6> covariance = regular.inverse() + result.shared_covariance;
+  const Eigen::Vector2d off = across.transpose() * scene.truth.t;
+  const Eigen::Matrix2d seen = across.transpose() * covariance.bottomRightCorner<3, 3>() * across;
+  return off.dot(seen.inverse() * off);
+}
+
+TEST(RefineTwoView, ErrorsThatNeighboursShareAreStated) {
+  SceneGenerator generator(24);
+  std::vector<double> errors;
+  for (int trial = 0; trial < 200; ++trial) {
+    errors.push_back(error_of_direction(rolling_street(generator, 0.003)));
+  }
+  std::sort(errors.begin(), errors.end());
+  EXPECT_GT(errors[100], 0.3) << "median; of chi-squared with two degrees of freedom 1.4";
+  EXPECT_LT(errors[180], 9.0) << "one of ten; of chi-squared 4.6, as if they were independent 28";
+}
+
 }  // namespace
 }  // namespace oneac

@@ -30,6 +30,7 @@ constexpr double kImpossible = 1e9;
 struct Basin {
   RelativePose pose;
   Matrix6 covariance = Matrix6::Zero();
+  Matrix6 shared_covariance = Matrix6::Zero();
   double cost = 0.0;
 };
 
@@ -41,7 +42,7 @@ double surprise(const Eigen::Vector3d& t, const Course& course) {
 
 Basin basin_of(const RefineResult& result, double surprise) {
   return {result.pose, covariance_beside(result.information, result.pose.t),
-          result.final_cost + surprise};
+          result.shared_covariance, result.final_cost + surprise};
 }
 
 /// Whether the images alone are sure of another way. A handful of points in the dark is not.
@@ -78,6 +79,7 @@ TwoView moved_to(const Basin& basin, TwoView found, const std::vector<AffineCorr
                  const std::vector<bool>& told, double threshold_px) {
   found.pose = basin.pose;
   found.covariance = basin.covariance;
+  found.shared_covariance = basin.shared_covariance;
   found.set_inliers(inliers_of(acs, told, basin.pose, threshold_px / found.focal_px));
   return found;
 }

@@ -220,6 +220,7 @@ TwoView creeping_by_depths(TwoView seen, const PointDepths& depths, const TwoVie
   seen.status = moves ? StepStatus::kOk : StepStatus::kNoMotion;
   seen.pose = {motion->T_2_1.R, Eigen::Vector3d::Zero()};
   seen.covariance.setZero();
+  seen.shared_covariance.setZero();
   seen.covariance.topLeftCorner<3, 3>() = motion->covariance.topLeftCorner<3, 3>();
   if (moves) {
     seen.pose.t = motion->T_2_1.t.normalized();

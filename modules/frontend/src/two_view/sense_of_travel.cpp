@@ -28,8 +28,10 @@ TwoView in_lasting_sense(TwoView found, const Eigen::Vector3d& heading) {
   if (found.status != StepStatus::kOk || !(found.pose.t.dot(heading) < 0.0)) return found;
   if (is_sure_of_its_sense(found)) return found;
   found.pose.t = -found.pose.t;
-  found.covariance.topRightCorner<3, 3>() *= -1.0;
-  found.covariance.bottomLeftCorner<3, 3>() *= -1.0;
+  for (auto* covariance : {&found.covariance, &found.shared_covariance}) {
+    covariance->topRightCorner<3, 3>() *= -1.0;
+    covariance->bottomLeftCorner<3, 3>() *= -1.0;
+  }
   return found;
 }
 

@@ -157,6 +157,7 @@ TwoView TwoViewEstimator::refined(TwoView start) const {
   start.pose = result.pose;
   const Matrix6 covariance = covariance_beside(result.information, result.pose.t);
   if (!covariance.isZero(0.0)) start.covariance = covariance;
+  start.shared_covariance = result.shared_covariance;
   return start;
 }
 

@@ -39,8 +39,10 @@ struct TwoView {
   StepStatus status = StepStatus::kPredicted;
   RelativePose pose;  ///< T_2_1, |t| = 1 or 0; of a predicted step the expected one
   /// Of (w, v): R ← exp([w]×) R, t/|t| ← t/|t| + v with v ⊥ t [rad²]; rank five with a direction,
-  /// of w alone without, zero where nobody told.
+  /// of w alone without, zero where nobody told. Of tracks that share no errors.
   Eigen::Matrix<double, 6, 6> covariance = Eigen::Matrix<double, 6, 6>::Zero();
+  /// What errors that neighbouring tracks share add to it, where it is stated.
+  Eigen::Matrix<double, 6, 6> shared_covariance = Eigen::Matrix<double, 6, 6>::Zero();
   TrackedPair pair;           ///< normalised, its second points corrected for perspective
   std::vector<bool> inliers;  ///< one per correspondence; empty when predicted
   std::optional<MotionEvidence> motion;  ///< where rest was in question

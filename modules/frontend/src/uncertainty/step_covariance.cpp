@@ -16,10 +16,10 @@ constexpr double kInertiaDirection = 0.05;  // [rad]
 constexpr double kStandingWay = 0.01;   // [m]
 constexpr double kStandingTurn = 3e-4;  // [rad] a fifth of a pixel at 700 px of focal length
 
-// Of what two views say of themselves: neighbouring tracks share their errors (overlapping patches,
-// the lens, the shutter), so that a hundred of them count as a quarter as many. Measured on
-// simulated drives, whose rotations and directions were off by 1.6 to 2.7 of the 1σ of independent
-// tracks: docs/benchmarks/sigma.md.
+// Of what two views say of themselves: they count errors that cells of the image share, but tracks
+// of a cell share more (overlapping patches), so that a hundred of them count as a quarter as many.
+// Measured on simulated drives, whose rotations and directions were off by 1.6 to 2.7 of the 1σ of
+// independent tracks: docs/benchmarks/sigma.md.
 constexpr double kShared = 4.0;           // variance over that of independent tracks
 constexpr double kLeastTurn = 1e-4;       // [rad]
 constexpr double kLeastDirection = 1e-3;  // [rad]

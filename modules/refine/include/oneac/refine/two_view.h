@@ -74,6 +74,10 @@ struct RefineResult {
   /// Information (inverse covariance) of (w, v): R ← exp([w]×) R, t/|t| ← t/|t| + v [rad], from the
   /// scatter of the residuals at the result. Rank five: nothing is known along t. Zero if unusable.
   Eigen::Matrix<double, 6, 6> information = Eigen::Matrix<double, 6, 6>::Zero();
+  /// Covariance of the same by errors that neighbours in the image share (a lens, a shutter that
+  /// rolls), beside that of independent ones, the information's inverse. Zero where they share
+  /// none.
+  Eigen::Matrix<double, 6, 6> shared_covariance = Eigen::Matrix<double, 6, 6>::Zero();
 
   /// The pose is refined: kConverged or kStopped.
   [[nodiscard]] bool usable() const {
