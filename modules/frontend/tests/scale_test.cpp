@@ -110,6 +110,18 @@ TEST(Scale, IsMetricOnceTheRoadHasMeasuredTheMap) {
   EXPECT_TRUE(std::isinf(scale.uncertainty()));
 }
 
+TEST(Scale, AFewCornersOfTheRoadDoNotBeginWithACreep) {
+  const auto begins = [](double metres, std::size_t corners) {
+    KeyframePair pair = road(metres, 1.0);
+    pair.acs.resize(corners);
+    Scale scale = started(by("height"));
+    return scale.correct({pair, {}}, {}, kFocal).metric;
+  };
+  EXPECT_FALSE(begins(0.12, 15)) << "slipped by nearly a slab";
+  EXPECT_TRUE(begins(0.12, 100));
+  EXPECT_TRUE(begins(0.9, 15));
+}
+
 TEST(Scale, TrustsAMapLessThatWasCarriedBadly) {
   const auto share_after = [](double sigma) {
     Scale scale = started(by("height"));

@@ -22,7 +22,7 @@ constexpr double kMoves = 2.5;
 constexpr double kAgree = 2.0;
 constexpr double kStillness = 0.02;
 constexpr double kNothing = 1e-9;  // [m] a shorter step is no divisor
-constexpr double kCreep = 0.15;    // [m] four times what noise made of a bonnet
+
 // [m or heights] a rest that is known no better than this says nothing in metres.
 constexpr double kSureRest = 0.05;
 // [-] share of the points that has to rest: of a car that stood (a bus may fill the picture, and a

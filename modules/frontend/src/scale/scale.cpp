@@ -325,8 +325,13 @@ std::optional<ScaleMeasurement> Scale::by_road(const KeyframePair& pair, const L
   const std::vector<bool> all(pair.acs.size(), true);
   const auto road = road_.measure(pair.acs, all, pair.T_2_1, first, focal_px);
   if (!road) return std::nullopt;
-  return ScaleMeasurement{road->length / in_map, road->sigma, road->source, road->support,
-                          road->reach};
+  const double ratio = road->length / in_map;
+  // Before anybody has measured it, the map's unit is a step. A creep by a few corners may be that
+  // of a bonnet, or of tracks that slipped along a road which repeats.
+  constexpr std::size_t kFew = 20;  // 2.5 times the least
+  const bool creeps = std::isinf(filter_.uncertainty()) && ratio < kCreep;
+  if (creeps && road->support < kFew) return std::nullopt;
+  return ScaleMeasurement{ratio, road->sigma, road->source, road->support, road->reach};
 }
 
 std::optional<ScaleMeasurement> Scale::by_interval(const KeyframePair& pair) const {

@@ -122,6 +122,7 @@ class Scale {
 
   static constexpr double kMostUntold = 0.2;  ///< [-] share of a way that is still told by the rest
   static constexpr double kUntold = 0.3;      ///< relative 1σ of a length that inertia alone told
+  static constexpr double kCreep = 0.15;      ///< [m] four times what noise made of a bonnet
 
   /// What landmarks carried over several steps.
   class Carried {
