@@ -62,7 +62,7 @@ class GradientsOfCells {
     const Eigen::Vector2d at = (x - corner_).cwiseProduct(per_unit_);
     const int column = std::clamp(static_cast<int>(at.x()), 0, kColumns - 1);
     const int row = std::clamp(static_cast<int>(at.y()), 0, kRows - 1);
-    return static_cast<std::size_t>(row * kColumns + column);
+    return static_cast<std::size_t>(row) * kColumns + static_cast<std::size_t>(column);
   }
 
   Eigen::Vector2d corner_ = Eigen::Vector2d::Zero();
