@@ -67,8 +67,7 @@ struct CalibrateFlags {
 };
 
 void require_not_the_log(const std::filesystem::path& file, const std::string& log) {
-  std::error_code missing;
-  if (!std::filesystem::equivalent(file, log, missing) || missing) return;
+  if (!is_same_file(file, log)) return;
   throw InputError(file.string(), "is the log, which the calibration would replace",
                    "give -o a name such as camera.ini");
 }

@@ -147,6 +147,25 @@ TEST_F(Interruption, OfSeveralLogsLeavesNoEmptyFolderAndSaysThatNothingWasSearch
   EXPECT_TRUE(met_the_first) << "no signal met the first log";
 }
 
+TEST_F(Interruption, OfADriveSaysThatLoopsWereNotLookedFor) {
+  bool met_the_drive = false;
+  for (int i = 0; i < 12 && !met_the_drive; ++i) {
+    const double share = 0.5 + 0.1 * i;  // before it no signal is waited for
+    SCOPED_TRACE("after " + std::to_string(share));
+    const fs::path folder = scratch() / ("loops" + std::to_string(i));
+    const ProgramResult result = ended_by(
+        SIGINT, share,
+        {ONEAC_PROGRAM, "run", log().string(), "-o", folder.string(), "--loops", "--no-progress"});
+    met_the_drive = result.exit_code == 1;
+    if (!met_the_drive) continue;
+    EXPECT_NE(result.out.find("no loops: the search for them did not come to its end"),
+              std::string::npos)
+        << result.out;
+    EXPECT_EQ(result.out.find("0 loops of"), std::string::npos) << result.out;
+  }
+  EXPECT_TRUE(met_the_drive) << "no signal met the drive";
+}
+
 TEST_F(Interruption, AComparisonKilledAgainAndAgainGivesTheSameBytes) {
   const auto command = [&](const fs::path& folder) -> std::vector<std::string> {
     return {ONEAC_PROGRAM,   "compare",        log().string(),          "-o",

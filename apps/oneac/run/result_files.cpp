@@ -144,8 +144,7 @@ class EarlierRun {
 
 bool is_input(const std::filesystem::path& file, const std::vector<std::string>& inputs) {
   return std::any_of(inputs.begin(), inputs.end(), [&](const std::string& input) {
-    std::error_code missing;
-    return !input.empty() && std::filesystem::equivalent(file, input, missing) && !missing;
+    return !input.empty() && is_same_file(file, input);
   });
 }
 

@@ -10,6 +10,7 @@
 
 #include "oneac/base/atomic_file.h"
 #include "oneac/base/error.h"
+#include "oneac/base/input_file.h"
 #include "oneac/base/printable.h"
 #include "oneac/rawlog/rawlog_source.h"
 
@@ -31,12 +32,6 @@ namespace fs = std::filesystem;
 // are good to.
 constexpr double kSameCamera = 1e-3;
 
-/// By whatever way: the loops of a drive with itself would all be right, and all be its own.
-bool is_one_file(const std::string& a, const std::string& b) {
-  std::error_code missing;
-  return a == b || (fs::equivalent(a, b, missing) && !missing);
-}
-
 void require_logs_that_can_be_joined(const std::vector<std::string>& logs,
                                      const RunOptions& options) {
   if (!options.run.loops) {
@@ -49,7 +44,8 @@ void require_logs_that_can_be_joined(const std::vector<std::string>& logs,
   }
   for (std::size_t i = 1; i < logs.size(); ++i) {
     for (std::size_t k = 0; k < i; ++k) {
-      if (is_one_file(logs[k], logs[i])) {
+      // The loops of a drive with itself would all be right, and all be its own.
+      if (is_same_file(logs[k], logs[i])) {
         throw InputError(logs[i], "is given twice", "name each log once");
       }
     }

@@ -32,6 +32,11 @@ std::string fault_of_place(const fs::path& path) {
   return fault == kNothingThere ? "" : fault;
 }
 
+bool is_same_file(const fs::path& a, const fs::path& b) {
+  std::error_code missing;
+  return a == b || (fs::equivalent(a, b, missing) && !missing);
+}
+
 std::string beginning_of(const fs::path& path, std::size_t bytes) {
   if (!fault_of_file(path).empty()) return "";
   std::ifstream in(path, std::ios::binary);

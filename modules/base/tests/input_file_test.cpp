@@ -32,6 +32,20 @@ TEST(InputFile, APlaceForAFileIsEmptyOrHoldsOne) {
   EXPECT_EQ(fault_of_place(folder.path()), "is a folder");
 }
 
+TEST(InputFile, AFileIsTheSameByWhateverWay) {
+  const TemporaryFolder folder;
+  const fs::path a = folder.path() / "a";
+  std::ofstream(a) << "x";
+  std::ofstream(folder.path() / "b") << "x";
+  fs::create_symlink("a", folder.path() / "link");
+  EXPECT_TRUE(is_same_file(a, a));
+  EXPECT_TRUE(is_same_file(a, folder.path() / "link"));
+  EXPECT_TRUE(is_same_file(a, folder.path() / "." / "a"));
+  EXPECT_FALSE(is_same_file(a, folder.path() / "b"));
+  EXPECT_FALSE(is_same_file(a, folder.path() / "nothing"));
+  EXPECT_TRUE(is_same_file(folder.path() / "nothing", folder.path() / "nothing"));
+}
+
 TEST(InputFile, TellsHowAFileBegins) {
   const TemporaryFolder folder;
   std::ofstream(folder.path() / "a") << "long";

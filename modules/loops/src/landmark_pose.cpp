@@ -109,17 +109,12 @@ const Eigen::Vector2d& in_first(const LandmarkSight& sight) {
   return sight.of_first ? sight.x : sight.other;
 }
 
-Eigen::AlignedBox2d seen_in_first(const std::vector<LandmarkSight>& sights) {
-  Eigen::AlignedBox2d box;
-  for (const LandmarkSight& sight : sights) box.extend(in_first(sight));
-  return box;
-}
-
 /// Inliers, cost and covariance where the pose is.
 void judge(const std::vector<LandmarkSight>& sights, double noise, LandmarkPose& pose) {
   double squares = 0.0;
   Matrix6 H = Matrix6::Zero(), V = Matrix6::Zero();
-  GradientsOfCells<6> cells(seen_in_first(sights));
+  GradientsOfCells<6> cells;
+  cells.reserve(sights.size());
   for (const LandmarkSight& sight : sights) {
     const Term term = term_of(sight, pose.T_2_1, noise);
     const bool inlier = term.squared() < kGate * kGate;

@@ -8,7 +8,10 @@
 
 #include <Eigen/Cholesky>
 
+#include <cmath>
+#include <cstddef>
 #include <random>
+#include <vector>
 
 namespace oneac::internal {
 namespace {
@@ -57,6 +60,30 @@ TEST(LandmarkPose, IsAsUncertainAsItsCovarianceSays) {
   EXPECT_LT(squares / kScenes, 3.0);
   EXPECT_GT(squares / kScenes, 0.75);
   EXPECT_LT(beyond, kScenes / 10);
+}
+
+/// To one side of the image in one field of a chessboard of the first view, to the other in the
+/// next.
+double pushed(const LandmarkSight& sight) {
+  const Eigen::Vector2d& x = sight.of_first ? sight.x : sight.other;
+  return std::sin(10.0 * x.x()) * std::sin(10.0 * x.y()) > 0.0 ? 1.0 : -1.0;
+}
+
+TEST(LandmarkPose, IsLessSureOfWhatNeighboursShare) {
+  std::mt19937 generator(5);
+  auto together = test::landmark_sights(generator, 400, kTruth, kNoise, 0.0);
+  auto alone = together;
+  // The same errors, once shared by neighbours and once without an order.
+  for (std::size_t i = 0; i < together.size(); ++i) {
+    together[i].other.x() += 3.0 * kNoise * pushed(together[i]);
+    alone[i].other.x() += i % 4 < 2 ? 3.0 * kNoise : -3.0 * kNoise;
+  }
+  const auto sigma_of = [](const std::vector<LandmarkSight>& sights) {
+    const LandmarkPose pose = pose_by_landmarks(sights, kStart, kNoise);
+    EXPECT_TRUE(pose.usable);
+    return std::sqrt(pose.covariance.bottomRightCorner<3, 3>().trace());
+  };
+  EXPECT_GT(sigma_of(together), 1.5 * sigma_of(alone));
 }
 
 TEST(LandmarkPose, SaysNothingOutOfTooFew) {

@@ -90,8 +90,6 @@ struct Sandwich {
   Matrix5 V = Matrix5::Zero();
   GradientsOfCells<5> cells;
 
-  explicit Sandwich(const Eigen::AlignedBox2d& box) : cells(box) {}
-
   template <int N>
   void add(const Terms<N>& terms, const Common& common, double loss_sigmas) {
     for (const Linearised<N>& term : terms) add(term, common, loss_sigmas);
@@ -133,10 +131,8 @@ TwoViewInformation two_view_information(const TwoViewTerms& terms, const Relativ
   const Matrix65 basis = tangent_basis(pose.t);
   Terms<1> points;
   Terms<2> affinities;
-  Eigen::AlignedBox2d box;
   for (std::size_t i = 0; i < terms.acs.size(); ++i) {
     const AffineCorrespondence& ac = terms.acs[i];
-    box.extend(ac.x1);
     if (terms.with_point[i]) {
       points.push_back(
           linearised(point_term(E, ac, terms.noise[i]), pose, basis, terms.loss_sigmas, ac.x1));
@@ -153,7 +149,8 @@ TwoViewInformation two_view_information(const TwoViewTerms& terms, const Relativ
   TwoViewInformation result{of_prior, Matrix6::Zero()};
   if (factor.info() != Eigen::Success || !(factor.rcond() > kSingular)) return result;
   common.inverse = factor.solve(Matrix5::Identity());
-  Sandwich sums(box);
+  Sandwich sums;
+  sums.cells.reserve(points.size() + affinities.size());
   sums.add(points, common, terms.loss_sigmas);
   sums.add(affinities, common, terms.loss_sigmas);
   const Eigen::LDLT<Matrix5> V(sums.V);

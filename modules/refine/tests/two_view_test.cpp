@@ -128,11 +128,12 @@ TEST(RefineTwoView, LooksAtInliersAlone) {
   const RelativePose start = test::perturbed(generator, scene.truth, 0.05, 0.5);
   const RefineResult clean = refine(scene, start);
   std::vector<bool> inliers(scene.acs.size(), true);
-  scene.acs.push_back({{0.1, 0.2}, {-0.3, 0.4}, Eigen::Matrix2d::Identity()});
+  scene.acs.push_back({{3.0, 2.0}, {-0.3, 0.4}, Eigen::Matrix2d::Identity()});
   scene.acs.push_back({{std::nan(""), 0.0}, {0.0, 0.0}, Eigen::Matrix2d::Identity()});
   inliers.resize(scene.acs.size(), false);
   const RefineResult result = refine_two_view(scene.acs, inliers, start, kFocal, {});
   expect_same_pose(result.pose, clean.pose);
+  EXPECT_EQ(result.shared_covariance, clean.shared_covariance);
   EXPECT_FALSE(result.affine_consistent.back());
 }
 

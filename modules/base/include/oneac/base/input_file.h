@@ -16,6 +16,10 @@ namespace oneac {
 /// nothing yet.
 [[nodiscard]] std::string fault_of_place(const std::filesystem::path& path);
 
+/// Whether two paths lead to one file or folder, by whatever way: links, dots, another spelling.
+/// Where nothing is there, whether they are spelled alike.
+[[nodiscard]] bool is_same_file(const std::filesystem::path& a, const std::filesystem::path& b);
+
 /// The first bytes of a file, fewer where it is shorter, none where it is no file.
 [[nodiscard]] std::string beginning_of(const std::filesystem::path& path, std::size_t bytes);
 

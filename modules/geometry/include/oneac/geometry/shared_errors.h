@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
+#include <vector>
 
 namespace oneac {
 
@@ -21,25 +22,21 @@ class GradientsOfCells {
   using Vector = Eigen::Matrix<double, N, 1>;
   using Matrix = Eigen::Matrix<double, N, N>;
 
-  /// @param box  of the image's part that has terms, any unit
-  explicit GradientsOfCells(const Eigen::AlignedBox2d& box) {
-    sums_.fill(Vector::Zero());
-    if (box.isEmpty()) return;
-    constexpr double kLeast = 1e-9;
-    corner_ = box.min();
-    const Eigen::Vector2d size = box.sizes().cwiseMax(kLeast);
-    per_unit_ = {kColumns / size.x(), kRows / size.y()};
-  }
+  void reserve(std::size_t terms) { terms_.reserve(terms); }
 
-  /// Adds a term's gradient, Jᵀ r by its weight. @param x  where it lies in the image
-  void add(const Eigen::Vector2d& x, const Vector& gradient) { sums_[cell_of(x)] += gradient; }
+  /// Adds a term's gradient, Jᵀ r by its weight. The cells part what the terms cover.
+  /// @param x  where it lies in the image, any unit
+  void add(const Eigen::Vector2d& x, const Vector& gradient) {
+    terms_.push_back({x, gradient});
+    box_.extend(x);
+  }
 
   /// What the cells' squared gradients have beyond V, along each axis of both, as far as it counts:
   /// such errors reach beyond a cell. Positive semidefinite, in V's units.
   /// @param V  Σ g gᵀ over the terms
   [[nodiscard]] Matrix shared(const Matrix& V) const {
     Matrix of_cells = Matrix::Zero();
-    for (const Vector& g : sums_) of_cells += g * g.transpose();
+    for (const Vector& g : sums()) of_cells += g * g.transpose();
     const Eigen::LLT<Matrix> root(V);
     if (root.info() != Eigen::Success) return kReach * of_cells;
     const Matrix half = root.matrixL().solve(of_cells);
@@ -58,16 +55,34 @@ class GradientsOfCells {
   // docs/decisions/refine-two-view.md.
   static constexpr double kReach = 10.0;
 
-  [[nodiscard]] std::size_t cell_of(const Eigen::Vector2d& x) const {
-    const Eigen::Vector2d at = (x - corner_).cwiseProduct(per_unit_);
+  struct Term {
+    Eigen::Vector2d x;
+    Vector gradient;
+  };
+  using Sums = std::array<Vector, static_cast<std::size_t>(kColumns) * kRows>;
+
+  [[nodiscard]] Sums sums() const {
+    Sums sums;
+    sums.fill(Vector::Zero());
+    if (terms_.empty()) return sums;
+    constexpr double kLeast = 1e-9;
+    const Eigen::Vector2d size = box_.sizes().cwiseMax(kLeast);
+    const Eigen::Vector2d per_unit(kColumns / size.x(), kRows / size.y());
+    for (const Term& term : terms_) {
+      sums[cell_of((term.x - box_.min()).cwiseProduct(per_unit))] += term.gradient;
+    }
+    return sums;
+  }
+
+  /// @param at  [cells] from the corner
+  static std::size_t cell_of(const Eigen::Vector2d& at) {
     const int column = std::clamp(static_cast<int>(at.x()), 0, kColumns - 1);
     const int row = std::clamp(static_cast<int>(at.y()), 0, kRows - 1);
     return static_cast<std::size_t>(row) * kColumns + static_cast<std::size_t>(column);
   }
 
-  Eigen::Vector2d corner_ = Eigen::Vector2d::Zero();
-  Eigen::Vector2d per_unit_ = Eigen::Vector2d::Zero();
-  std::array<Vector, static_cast<std::size_t>(kColumns) * kRows> sums_;
+  std::vector<Term> terms_;
+  Eigen::AlignedBox2d box_;
 };
 
 }  // namespace oneac
