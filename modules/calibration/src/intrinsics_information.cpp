@@ -73,6 +73,11 @@ class Reduced {
   std::vector<Cross> crossings_;
 };
 
+// [-] times the loss: so far off a sighting is an outlier. Its Jacobian may be as large as its
+// error, where a landmark lies beside a view, and no weight that falls with the error makes it
+// harmless.
+constexpr double kOutlier = 10.0;
+
 template <int Columns>
 using RowMajor = Eigen::Matrix<double, 2, Columns, Eigen::RowMajor>;
 
@@ -92,7 +97,8 @@ IntrinsicsMatrix WindowAdjustment::information(double sigma_px) const {
     RowMajor<6> pose;
     RowMajor<3> point;
     double* jacobians[] = {camera.data(), pose.data(), point.data()};
-    if (cost->Evaluate(blocks, r.data(), jacobians)) {
+    const bool valid = cost->Evaluate(blocks, r.data(), jacobians);
+    if (valid && r.squaredNorm() < kOutlier * kOutlier * c2) {
       Eigen::Matrix<double, 2, 14> J;
       J << camera, pose, point;
       reduced.add(s.view, std::sqrt(cauchy_weight(r.squaredNorm(), c2)) * J);
