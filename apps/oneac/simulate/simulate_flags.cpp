@@ -59,6 +59,9 @@ void add_picture_flags(CLI::App& verb, SimulationOptions& options) {
   verb.add_flag("--wiper", options.wiper, "A wiper sweeps the picture");
   verb.add_flag("--exposure-jumps", options.exposure_jumps, "Another exposure every 1.1 s");
   verb.add_flag("--night", options.night, "Headlights, noise, hot pixels");
+  verb.add_option("--repeat-every", options.repeat_every,
+                  "Every so many-th image shows the one before once more; 0: never")
+      ->capture_default_str();
   verb.add_option("--rolling-shutter", options.rolling_shutter_s,
                   "From the first row to the last [s]; the pose is that of the first")
       ->capture_default_str();

@@ -72,6 +72,7 @@ void SimulationOptions::validate() const {
   require_within("truck_gap_m", truck_gap_m, 2.0, 100.0);
   require_within("truck_gap_swing_m", truck_gap_swing_m, 0.0, truck_gap_m - 1.0);
   require_within("bonnet_share", bonnet_share, 0.0, 0.5);
+  if (repeat_every != 0) require_within("repeat_every", repeat_every, 2, 1000);
   require_within("rolling_shutter_s", rolling_shutter_s, 0.0, 1.0 / fps);
   // Two bends need 28 m; beyond the left lane stand vehicles.
   require_within("block_m", block_m, 40.0, 1000.0);

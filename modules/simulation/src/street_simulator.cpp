@@ -87,6 +87,8 @@ struct StreetSimulator::Impl {
       relit.emplace(camera, route, options, std::vector<simulation::MovingVehicle>{}, true);
   }
 
+  /// When the camera saw what an image shows [s].
+  [[nodiscard]] double taken_at(std::size_t i) const;
   [[nodiscard]] SimulatedState state_at(double time_s) const;
   [[nodiscard]] GreyImage image(const SimulatedFrame& frame, int side) const;
   [[nodiscard]] std::vector<float> rendered(double time_s, int side) const;
@@ -105,6 +107,14 @@ struct StreetSimulator::Impl {
   std::optional<StreetRenderer> relit;  ///< of every second lap
   simulation::PictureEffects effects;
 };
+
+double StreetSimulator::Impl::taken_at(std::size_t i) const {
+  if (options.repeat_every == 0) return static_cast<double>(i) / options.fps;
+  const auto every = static_cast<std::size_t>(options.repeat_every);
+  const std::size_t taken = i - (i + 1) / every;
+  const double camera_fps = options.fps * (1.0 - 1.0 / static_cast<double>(every));
+  return static_cast<double>(taken) / camera_fps;
+}
 
 SimulatedState StreetSimulator::Impl::state_at(double time_s) const {
   const PlanarState planar = route.at(time_s);
@@ -138,7 +148,7 @@ std::vector<float> StreetSimulator::Impl::rendered(double time_s, int side) cons
 GreyImage StreetSimulator::Impl::image(const SimulatedFrame& frame, int side) const {
   const std::uint64_t key = mix_bits(options.seed) + 2 * static_cast<std::uint64_t>(frame.index) +
                             static_cast<std::uint64_t>(side);
-  const double time_s = frame.state.time_s;
+  const double time_s = taken_at(frame.index);
   std::vector<float> grey = rendered(time_s, side);
   effects.apply(grey, time_s, side);
   if (time_s >= options.dark_from_s && time_s < options.dark_from_s + options.dark_s) {
@@ -204,7 +214,9 @@ SimulatedState StreetSimulator::state(std::size_t i) const {
     throw std::out_of_range("StreetSimulator: frame " + std::to_string(i) + " of " +
                             std::to_string(size()));
   }
-  return impl_->state_at(static_cast<double>(i) / impl_->options.fps);
+  SimulatedState state = impl_->state_at(impl_->taken_at(i));
+  state.time_s = static_cast<double>(i) / impl_->options.fps;
+  return state;
 }
 
 SimulatedFrame StreetSimulator::frame(std::size_t i) const {

@@ -214,6 +214,24 @@ TEST(StreetSimulator, TheDefaultDriveTurnsAndStops) {
   EXPECT_GT(largest_turn, 88.0 * kDegree);
 }
 
+TEST(StreetSimulator, AnImageShownTwiceHasNoiseOfItsOwn) {
+  SimulationOptions options = small_drive();
+  options.repeat_every = 5;
+  const StreetSimulator drive(options);
+  for (std::size_t i = 1; i < 12; ++i) {
+    SCOPED_TRACE(i);
+    const Eigen::Vector3d step =
+        drive.state(i).T_world_cam.translation() - drive.state(i - 1).T_world_cam.translation();
+    EXPECT_NEAR(drive.state(i).time_s, static_cast<double>(i) / options.fps, 1e-12);
+    if (i % 5 == 4) {
+      EXPECT_EQ(step.norm(), 0.0);
+    } else {
+      EXPECT_GT(step.norm(), 0.3) << "of a camera at four fifths of the rate";
+    }
+  }
+  EXPECT_NE(bytes(drive.frame(3).left), bytes(drive.frame(4).left));
+}
+
 TEST(StreetSimulator, RightImageIsShiftedByTheDisparity) {
   SimulationOptions options = small_drive();
   options.frames = 1;

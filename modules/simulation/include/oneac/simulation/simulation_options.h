@@ -85,11 +85,14 @@ struct SimulationOptions {
   double dark_from_s = 0.0;    ///< [s] from here on, for ...
   double dark_s = 0.0;         ///< [s] ... so long the images are nearly black; 0: never
 
-  double bonnet_share = 0.0;       ///< [-] of the picture's height that the bonnet hides; 0: none
-  bool rain = false;               ///< drops on the windscreen, less contrast
-  bool wiper = false;              ///< a blade sweeps the picture and takes the drops along
-  bool exposure_jumps = false;     ///< another exposure every 1.1 s, from a third to nearly double
-  bool night = false;              ///< headlights, an amplified sensor: noise and hot pixels
+  double bonnet_share = 0.0;    ///< [-] of the picture's height that the bonnet hides; 0: none
+  bool rain = false;            ///< drops on the windscreen, less contrast
+  bool wiper = false;           ///< a blade sweeps the picture and takes the drops along
+  bool exposure_jumps = false;  ///< another exposure every 1.1 s, from a third to nearly double
+  bool night = false;           ///< headlights, an amplified sensor: noise and hot pixels
+  /// [images] every so many-th shows the one before once more, with noise of its own, as in a video
+  /// of a slower camera that was brought to `fps`; 0: never
+  int repeat_every = 0;
   double rolling_shutter_s = 0.0;  ///< [s] from the first row, the pose's moment, to the last
 
   double gps_noise_m = 0.3;          ///< [m] std. deviation per axis; a receiver with corrections
