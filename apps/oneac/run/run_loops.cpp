@@ -140,6 +140,7 @@ ClosedDrive drive_of(const ClosedDrives& all, std::size_t begin, std::size_t end
   drive.log = log;
   drive.frame_of = begin == end ? log : all.keyframes[all.graph.group[begin]].log;
   drive.alone = drives.size() == 1;
+  drive.searched = all.searched;
   drive.report = all.report;
   drive.note = all.note;
   drive.global = all.global;
@@ -306,8 +307,7 @@ std::string text_about(const GlobalReport& global) {
 }
 
 std::string text_about(const ClosedDrive& closed, const std::optional<Evaluation>& after) {
-  const bool searched = !closed.alone || closed.report.keyframes > 0 || closed.keyframes.empty();
-  if (!searched) return "no loops: the search for them did not come to its end\n";
+  if (!closed.searched) return "no loops: the search for them did not come to its end\n";
   std::string text =
       std::to_string(closed.graph.loops.size()) + " loops of " +
       std::to_string(closed.alone ? closed.report.keyframes : closed.keyframes.size()) +

@@ -31,6 +31,7 @@ struct ClosedDrive {
   std::size_t log = 0, frame_of = 0;  ///< which of the logs, and whose first camera the frame is
   std::size_t loops_to_others = 0;    ///< loops that end in another log
   bool alone = true;                  ///< the only log
+  bool searched = false;              ///< for loops, to the end
   std::optional<GlobalReport> global;  ///< of all logs; empty when it was not asked for
   /// Of the record's map points, in their order, where the global adjustment has put them.
   std::vector<std::optional<Eigen::Vector3d>> points;
