@@ -55,6 +55,7 @@ struct FrameFields {
     archive.array(step.pose.R.data(), 9);
     archive.array(step.pose.t.data(), 3);
     archive(step.metric);
+    archive(step.repeats_image);
     archive(step.length);
     archive(step.length_sigma);
     archive(step.camera_doubt);

@@ -14,6 +14,7 @@ bool travelled_in_metres(const FrameResult& frame) {
 
 std::string about(const StepResult& step) {
   if (step.status == StepStatus::kPredicted) return "last step: not seen, the motion goes on";
+  if (step.repeats_image) return "last step: the image before, once more";
   if (step.status == StepStatus::kNoMotion) return "last step: standing";
   if (!step.metric) return "last step: not in metres";
   return "last step: in metres, 1 sigma " + fixed_text(100.0 * step.length_sigma, 1) + " %";

@@ -370,6 +370,15 @@ std::vector<std::string> notes_about(const DriveRecord& record) {
     notes.push_back(std::to_string(predicted) +
                     " steps were not carried by their images and repeat the motion before");
   }
+  const auto repeated = std::count_if(
+      record.frames.begin(), record.frames.end(),
+      [](const FrameResult& frame) { return frame.step && frame.step->repeats_image; });
+  if (repeated > 0) {
+    notes.push_back(std::to_string(repeated) +
+                    " images show once more what the one before them did, though the car drove: a "
+                    "video at another rate than its camera's? Their steps are zero and not metric, "
+                    "and speeds are as wrong as the stamps");
+  }
   return notes;
 }
 

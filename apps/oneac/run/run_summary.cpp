@@ -126,6 +126,8 @@ Json counts_json(const DriveRecord& record) {
           {"steps_ok", count_status(record, StepStatus::kOk)},
           {"steps_no_motion", count_status(record, StepStatus::kNoMotion)},
           {"steps_predicted", count_status(record, StepStatus::kPredicted)},
+          {"steps_of_repeated_images",
+           count_steps(record, [](const StepResult& s) { return s.repeats_image; })},
           {"keyframes", record.keyframes.size()},
           {"segments", segments(record)},
           {"steps_metric", count_steps(record, [](const StepResult& s) { return s.metric; })}};

@@ -183,7 +183,7 @@ FrameResult Odometry::integrate(const FrameStamp& now, TwoView found, const Road
   auto [seen, in_time] = believed(before, now, std::move(found), road);
   const MapLink link = map_.link(seen);
   if (link.began_anew) scale_.restart(before.time_s);
-  if (!in_time.direct) {
+  if (!in_time.direct && !in_time.repeated) {
     in_time.direct =
         scale_.measure_directly(road, seen, link.carried, attitude_.now(), heading(), in_time);
   }
@@ -195,7 +195,8 @@ FrameResult Odometry::integrate(const FrameStamp& now, TwoView found, const Road
   seen = as_it_moved(std::move(seen), length, heading());
   if (seen.pose.t.norm() > 0.0) heading_ = seen.pose.t.normalized();
   if (scale_.map_is_refuted()) map_.forget();
-  const StepResult step = step_result(before, now, seen, length, map_.segment());
+  StepResult step = step_result(before, now, seen, length, map_.segment());
+  step.repeats_image = in_time.repeated;
   if (in_time.direct && length.metric) attitude_.see_road(in_time.direct->roll_right);
   attitude_.follow(step);  // which counts for itself what lasts from step to step
   FrameResult result = moved(now, seen, with_shared_errors(step, seen, length));
@@ -205,6 +206,12 @@ FrameResult Odometry::integrate(const FrameStamp& now, TwoView found, const Road
 
 Odometry::SeenInTime Odometry::believed(const FrameStamp& before, const FrameStamp& now,
                                         TwoView seen, const RoadPair& road) {
+  if (repeats(seen, before, now)) {
+    seen = resting(std::move(seen));
+    StepInTime in_time = step_in_time(before, now, seen, road, last_motion_);
+    in_time.repeated = true;
+    return {std::move(seen), std::move(in_time)};
+  }
   if (!turn_gate_.allows(seen.pose.R, before.time_s, now.time_s)) {
     seen = refused(std::move(seen), last_motion_);
   }
@@ -239,7 +246,8 @@ FrameResult Odometry::moved(const FrameStamp& now, const TwoView& seen, const St
   const auto lengths = map_.move(now, motion, seen, levelling_rotation(attitude_.mounting().tilt),
                                  scale_.lengths_hold());
   const auto correction = scale_correction(lengths, seen.focal_px);
-  last_motion_ = {motion.R, motion.t * (correction ? correction->factor : 1.0)};
+  if (!step.repeats_image) last_motion_ = motion;
+  if (correction) last_motion_.t *= correction->factor;
   T_cam_odom_ = orthonormalised(motion * T_cam_odom_);
   FrameResult result = frame_result(now, map_.settle(correction), attitude_);
   result.T_odom_cam = camera_in_frame(T_cam_odom_);
@@ -259,6 +267,13 @@ std::optional<ScaleCorrection> Odometry::scale_correction(const std::optional<Ma
   if (!lengths) return std::nullopt;
   return setup_.checked(
       scale_.correct(*lengths, attitude_.before(lengths->newest.T_2_1.R), focal_px));
+}
+
+bool Odometry::repeats(const TwoView& seen, const FrameStamp& before, const FrameStamp& now) {
+  const auto expected = scale_.expected(before.time_s, now.time_s);
+  const bool may_have_stopped = expected && !(expected->least > 0.0);
+  return repeated_.repeats(seen.pair, seen.focal_px, before.time_s, now.time_s) &&
+         !may_have_stopped;
 }
 
 bool Odometry::is_on_wheels(const TwoView& seen) const {

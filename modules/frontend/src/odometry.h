@@ -5,6 +5,7 @@
 #include "scale/first_rest.h"
 #include "scale/scale.h"
 #include "setup/setup_check.h"
+#include "two_view/repeated_view.h"
 #include "two_view/turn_gate.h"
 #include "two_view/two_view.h"
 
@@ -74,6 +75,8 @@ class Odometry {
   /// What two views told, or a rest where the road says so; refused where no car does it.
   [[nodiscard]] SeenInTime believed(const FrameStamp& before, const FrameStamp& now, TwoView seen,
                                     const RoadPair& road);
+  /// Whether the image shows what the one before it showed, though the car cannot have stopped.
+  [[nodiscard]] bool repeats(const TwoView& seen, const FrameStamp& before, const FrameStamp& now);
   /// Whether the car's wheels can take the direction that two views told.
   [[nodiscard]] bool is_on_wheels(const TwoView& seen) const;
   /// Whether a car that cannot even have come to a stop is seen going the other way: tracks have
@@ -93,6 +96,7 @@ class Odometry {
   Workers* workers_;
   TwoViewEstimator two_view_;
   TurnGate turn_gate_;
+  RepeatedView repeated_;
   CourseBelief course_;
   Attitude attitude_;
   FirstRest first_rest_;

@@ -281,6 +281,7 @@ StepLength Scale::held(const StepInTime& step) const {
 }
 
 StepLength Scale::at_rest(const StepInTime& step) const {
+  if (step.repeated) return {};  // of the image, not of the car
   const auto expected = inertia_.expect(step.begin_s, step.end_s);
   if (!expected && step.shows_travel) return held(step);
   if (step.through_dirt) return without_metres(held(step));

@@ -28,6 +28,7 @@ struct StepInTime {
   bool began_at_rest = true;             ///< so says FirstRest; asked while nothing has moved
   bool shows_travel = false;             ///< the images show travel, whatever rests in them
   bool through_dirt = false;             ///< what rests may be drops or dirt on the glass
+  bool repeated = false;                 ///< it shows the image before once more, see RepeatedView
 
   /// It is a rest, of this share of the points.
   void rests(StepStatus rest, double share) {
