@@ -11,6 +11,7 @@
 
 #include <Eigen/Geometry>
 
+#include <algorithm>
 #include <cstddef>
 #include <filesystem>
 #include <functional>
@@ -104,5 +105,17 @@ struct DriveRecord {
   /// Of vehicle_trajectory(), the same.
   void each_vehicle_pose(const std::function<void(const PoseCovarianceRow&)>& visit) const;
 };
+
+/// Steps of which the predicate, of a StepResult, holds.
+template <class Predicate>
+std::size_t count_steps(const DriveRecord& record, Predicate&& predicate) {
+  return static_cast<std::size_t>(
+      std::count_if(record.frames.begin(), record.frames.end(),
+                    [&](const FrameResult& f) { return f.step && predicate(*f.step); }));
+}
+
+[[nodiscard]] inline std::size_t count_status(const DriveRecord& record, StepStatus status) {
+  return count_steps(record, [=](const StepResult& s) { return s.status == status; });
+}
 
 }  // namespace oneac::app

@@ -143,9 +143,8 @@ class EarlierRun {
 };
 
 bool is_input(const std::filesystem::path& file, const std::vector<std::string>& inputs) {
-  return std::any_of(inputs.begin(), inputs.end(), [&](const std::string& input) {
-    return !input.empty() && is_same_file(file, input);
-  });
+  return std::any_of(inputs.begin(), inputs.end(),
+                     [&](const std::string& input) { return is_same_file(file, input); });
 }
 
 void require_own_result(const std::filesystem::path& file, const EarlierRun& earlier,

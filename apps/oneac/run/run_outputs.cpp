@@ -362,22 +362,18 @@ std::vector<std::string> notes_about(const DriveRecord& record) {
   if (const std::string faulty = about_faulty_answers(record); !faulty.empty()) {
     notes.push_back(faulty);
   }
-  const auto predicted =
-      std::count_if(record.frames.begin(), record.frames.end(), [](const FrameResult& frame) {
-        return frame.step && frame.step->status == StepStatus::kPredicted;
-      });
+  const std::size_t predicted = count_status(record, StepStatus::kPredicted);
   if (predicted > 0) {
     notes.push_back(std::to_string(predicted) +
                     " steps were not carried by their images and repeat the motion before");
   }
-  const auto repeated = std::count_if(
-      record.frames.begin(), record.frames.end(),
-      [](const FrameResult& frame) { return frame.step && frame.step->repeats_image; });
+  const std::size_t repeated =
+      count_steps(record, [](const StepResult& s) { return s.repeats_image; });
   if (repeated > 0) {
     notes.push_back(std::to_string(repeated) +
-                    " images show once more what the one before them did, though the car drove: a "
-                    "video at another rate than its camera's? Their steps are zero and not metric, "
-                    "and speeds are as wrong as the stamps");
+                    " images show once more what had moved until then, all of it at rest: a video "
+                    "at another rate than its camera's? Their steps are zero and not metric, and "
+                    "speeds are as wrong as the stamps");
   }
   return notes;
 }

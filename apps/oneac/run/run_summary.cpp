@@ -89,17 +89,6 @@ std::optional<GpsComparison> compare_with_gps(const DriveRecord& record) {
   return comparison;
 }
 
-template <class Predicate>
-std::size_t count_steps(const DriveRecord& record, Predicate&& predicate) {
-  return static_cast<std::size_t>(
-      std::count_if(record.frames.begin(), record.frames.end(),
-                    [&](const FrameResult& f) { return f.step && predicate(*f.step); }));
-}
-
-std::size_t count_status(const DriveRecord& record, StepStatus status) {
-  return count_steps(record, [=](const StepResult& s) { return s.status == status; });
-}
-
 /// "all" steps are in metres, "partly" (the others hold the speed), or "none".
 std::string metric_word(const DriveRecord& record) {
   const std::size_t metric = count_steps(record, [](const StepResult& s) { return s.metric; });

@@ -75,7 +75,8 @@ class Odometry {
   /// What two views told, or a rest where the road says so; refused where no car does it.
   [[nodiscard]] SeenInTime believed(const FrameStamp& before, const FrameStamp& now, TwoView seen,
                                     const RoadPair& road);
-  /// Whether the image shows what the one before it showed, though the car cannot have stopped.
+  /// Whether the image shows what the one before it showed, though the car cannot have stopped as
+  /// far as its speed is known.
   [[nodiscard]] bool repeats(const TwoView& seen, const FrameStamp& before, const FrameStamp& now);
   /// Whether the car's wheels can take the direction that two views told.
   [[nodiscard]] bool is_on_wheels(const TwoView& seen) const;

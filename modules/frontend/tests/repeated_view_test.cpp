@@ -58,10 +58,10 @@ TEST_F(RepeatedViewTest, IsNoneOfTracksThatAreNew) {
 }
 
 TEST_F(RepeatedViewTest, IsNoneAfterABumpThatTurnedAll) {
-  TrackedPair bump = tracked(200, 40);
+  TrackedPair bump = tracked(200, 30);
   for (Correspondence& ac : bump.correspondences) ac.x2.x() += 3.0 / kFocal;
   EXPECT_FALSE(repeats(bump));
-  EXPECT_FALSE(repeats(tracked(200, 40))) << "the near fifth goes on";
+  EXPECT_FALSE(repeats(tracked(200, 30))) << "the near ones go on";
 }
 
 TEST_F(RepeatedViewTest, TracksThatAreNewSayNothingAgainstIt) {

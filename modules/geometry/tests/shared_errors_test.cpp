@@ -45,6 +45,22 @@ TEST(GradientsOfCells, WhatNeighboursShareCountsAlongItsOwnAxis) {
   EXPECT_LT(shared(1, 1), 10.0 * terms.V(1, 1));
 }
 
+TEST(GradientsOfCells, PullsOfTwoPartsOfTheImageDoNotCancel) {
+  std::mt19937 generator(3);
+  std::uniform_real_distribution<double> across(-300.0, 300.0), down(-200.0, 200.0);
+  for (const int axis : {0, 1}) {
+    Cells cells;
+    Eigen::Matrix2d V = 1e-6 * Eigen::Matrix2d::Identity();
+    for (int i = 0; i < 1000; ++i) {
+      const Eigen::Vector2d x(across(generator), down(generator));
+      const Eigen::Vector2d g(x[axis] > 0.0 ? 1.0 : -1.0, 0.0);
+      cells.add(x, g);
+      V += g * g.transpose();
+    }
+    EXPECT_GT(cells.shared(V)(0, 0), 50.0 * V(0, 0)) << axis;
+  }
+}
+
 TEST(GradientsOfCells, KnowNoUnit) {
   const Terms pixels(2, 1.0, {0.5, 0.2}), rays(2, 0x1p-10, {0.5, 0.2});
   EXPECT_EQ(pixels.cells.shared(pixels.V), rays.cells.shared(rays.V));

@@ -1,5 +1,7 @@
 #include "repeated_view.h"
 
+#include "two_view.h"
+
 #include <algorithm>
 #include <cstddef>
 #include <utility>
@@ -49,8 +51,9 @@ bool RepeatedView::repeats(const TrackedPair& pair, double focal_px, double begi
   std::size_t known = 0;
   std::vector<Look> looks;  // at what moved
   std::unordered_map<std::uint64_t, Travel> now;
+  now.reserve(pair.size());
   for (const Correspondence& ac : pair.correspondences) {
-    const double rest_px = kRests * std::max(focal_px * ac.point_sigma, kLeastSigma);
+    const double rest_px = kRests * std::max(focal_px * point_sigma(ac, focal_px), kLeastSigma);
     const double px = focal_px * (ac.x2 - ac.moved - ac.x1).norm();
     now[ac.track] = {px, px > kMoves * rest_px};
     const auto before = before_.find(ac.track);

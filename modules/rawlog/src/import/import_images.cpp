@@ -4,6 +4,7 @@
 
 #include "oneac/base/atomic_file.h"
 #include "oneac/base/error.h"
+#include "oneac/base/input_file.h"
 #include "oneac/observations/image_decoding.h"
 
 #include <algorithm>
@@ -173,7 +174,7 @@ std::string ImageReferences::refer_to(const fs::path& image, const std::string& 
   if (!copy_) return fs::canonical(image).string();
   std::error_code error;
   std::string name = prefix + image.filename().string();
-  const bool lies_there = fs::equivalent(image.parent_path(), images_beside(log_), error);
+  const bool lies_there = is_same_file(image.parent_path(), images_beside(log_));
   if (lies_there && prefix.empty()) return name;
   if (!copies_) copies_ = std::make_unique<MadeImages>(log_);
   fs::copy_file(image, copies_->folder() / name, error);

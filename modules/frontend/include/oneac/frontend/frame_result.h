@@ -26,9 +26,10 @@ struct StepResult {
   std::size_t index1 = 0, index2 = 0;  ///< images of the camera in the log
   double time1 = 0.0, time2 = 0.0;     ///< [s] Unix time
   StepStatus status = StepStatus::kPredicted;
-  /// The second image shows once more what the first did, though the car cannot have stopped: a
-  /// video at another rate than its camera's. Then `pose` is that of the images, no motion, and
-  /// nobody knows where the car was at time2; not metric.
+  /// The second image shows once more what the first did: all that moved before rests, and the car
+  /// cannot have stopped, or nobody knows its speed. A video at another rate than its camera's.
+  /// Then `pose` is that of the images, no motion, and nobody knows where the car was at time2; not
+  /// metric.
   bool repeats_image = false;
   /// T_2_1 of the two images alone, optical frames; t in metres when metric, else |t| is 1 or 0
   RelativePose pose;
